@@ -19,6 +19,7 @@ from rclpy.publisher import Publisher
 from spinning import Spinning
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from acts_msgs.msg import Contact
 from acts_ros import qos
@@ -52,7 +53,8 @@ class Bench:
 
     def connect(self) -> ClientConnection:
         address = self.view.address
-        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=address.url.rstrip("/"), compression=None)  # type: ignore[arg-type]
+        origin = Origin(address.url.rstrip("/"))
+        return connect(f"ws://127.0.0.1:{address.port}/stream", origin=origin, compression=None)
 
     def press(self, force_n: float) -> None:
         self._sequence += 1

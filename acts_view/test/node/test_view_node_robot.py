@@ -50,6 +50,10 @@ def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_go
     def seen() -> dict[str, Any]:
         return bench.headers.get("frame", {"ball": {}, "hand": {}})
 
+    def press() -> None:
+        for _ in range(presses):
+            bench.press(1.0)
+
     with bench.connect() as client:
         bench.until(lambda: len(seen()["ball"]) == 7 and "joints" in seen()["hand"], client, play)
         assert seen()["ball"] == {
@@ -63,8 +67,8 @@ def test_a_page_sees_ball_reference_tilt_and_joints_and_no_more_when_they_are_go
         }
         assert seen()["hand"] == {"joints": [["knee", 0.5]]}
         bench.destroy([place, reference, status, joints])
-        none = {"ball": {}, "hand": {}}
-        bench.until(lambda: seen() | none == seen(), client, lambda: [bench.press(1.0) for _ in range(presses)])
+        none: dict[str, Any] = {"ball": {}, "hand": {}}
+        bench.until(lambda: seen() | none == seen(), client, press)
 
 
 @pytest.mark.parametrize("is_gone", [True, False])
