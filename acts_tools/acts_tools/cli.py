@@ -15,7 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from acts_core.errors import ActsError
-from acts_core.shared_memory import check_shared_memory
+from acts_ros.executables.shared_memory import check_shared_memory
 from acts_tools import INTERRUPTED, __version__
 
 COMMANDS = {

@@ -13,9 +13,9 @@ from importlib import import_module
 from pathlib import Path
 
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
-from acts_core.shared_memory import check_shared_memory
 from acts_core.stop_signals import StopSignals
 from acts_ros.executables.refused import stay, take_stay_word
+from acts_ros.executables.shared_memory import check_shared_memory
 from acts_ros.executables.standby import PREPARE_AFTER_S, Standby, say_ready, take_standby_word
 
 

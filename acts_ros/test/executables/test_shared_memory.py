@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from acts_core.errors import ActsError
-from acts_core.shared_memory import check_shared_memory
+from acts_ros.executables.shared_memory import check_shared_memory
 
 
 def leave(monkeypatch: pytest.MonkeyPatch, free_bytes: int) -> None:
