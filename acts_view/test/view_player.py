@@ -110,6 +110,11 @@ class Player:
                 self.server.show_status({"skins": list(self._names), "diagnostics": [node], **self.status})
             number += 1
 
+    @property
+    def newest_s(self) -> float:
+        """Stamp of its newest frame [s], on a busy machine behind the time of day; a later one ends the history."""
+        return max(frame.stamp_s for frame in self._last.values())
+
     def close(self) -> None:
         if not self._stopped.is_set():
             self._stopped.set()

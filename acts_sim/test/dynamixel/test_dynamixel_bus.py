@@ -147,9 +147,12 @@ def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> N
     assert not rig.control.exists()
 
 
-def answers_for(rig: Rig, duration_s: float) -> bool:
-    """Whether it answers for so long; False where this machine stood still: the bus took its client for gone."""
-    begin_s = answered_s = time.monotonic()
+def answers_for(rig: Rig, duration_s: float, answered_s: float) -> bool:
+    """Whether it answers for so long; False where this machine stood still: the bus took its client for gone.
+
+    It has answered at `answered_s` for the last time.
+    """
+    begin_s = time.monotonic()
     while answered_s < begin_s + duration_s:
         try:
             result = rig.packets.ping(rig.port, 0)[1]
@@ -172,9 +175,10 @@ def test_ctrl_c_leaves_a_client_the_time_to_switch_the_torque_off(
         folder = tmp_path / str(attempt)
         folder.mkdir()
         rig = Rig(folder, "--motors", "2")
+        begin_s = time.monotonic()
         rig.process.send_signal(number)
         # Longer than the motors wait for a client that is quiet.
-        if not stays or answers_for(rig, 1.0):
+        if not stays or answers_for(rig, 1.0, begin_s):
             break
         rig.process.wait(20.0)
     else:

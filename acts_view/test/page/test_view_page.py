@@ -247,7 +247,7 @@ def test_a_pause_holds_the_figures_and_a_skin_that_appears_in_it(
     expect(page.locator("[data-number=rate]")).to_have_text("1000")
     beside = open_page(player)
     page.click("#pause")
-    _, frame, (sample, *_) = pressed("/plate", time.time())
+    _, frame, (sample, *_) = pressed("/plate", player.newest_s)
     player.server.show_frame("/plate", frame, [sample._replace(lost=7)])
     player.server.show_shape("/late", SkinShape())
     player.server.show_frame(*pressed("/late", time.time()))

@@ -207,7 +207,8 @@ class DynamixelPort:
             # The library is left in the middle of an exchange: it would call the port busy from now on.
             self.disconnect()
             number = errno_of(error)
-            words = error if number is None else os.strerror(number)
+            # pyserial has no number for a port that is ready to be read and has nothing.
+            words = "it gives nothing more" if number is None else os.strerror(number)
             raise HandLostError(f"{self._config.port} is gone ({words}); is the cable plugged in?") from error
 
 
