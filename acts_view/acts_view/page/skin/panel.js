@@ -98,6 +98,7 @@ export class Panel {
     this.history.take(message);
     if (this.isHeld) return;
     this.message = message;
+    this.regions.take(message.hand);
     this.view.setState(message);
     this.#showTop();
   }

@@ -16,6 +16,13 @@ export class Regions {
     element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints [°]</h3><dl class="joints"></dl><p class="note"></p>`;
     this.rows = new Map();
     this.joints = new Map();
+    this.told = new Map();
+  }
+
+  /** Of every message, since few are shown, which might all have the joints of the same node. */
+  take(hand) {
+    const told_ms = performance.now();
+    for (const [name, angle_rad] of hand.joints ?? []) this.told.set(name, { angle_rad, told_ms });
   }
 
   /** The newest of both; hidden as long as neither is published. */
@@ -23,8 +30,7 @@ export class Regions {
     this.element.hidden = !regions.length && !hand.state && !hand.joints?.length;
     setText(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
     setText(this.element.querySelector(".reason"), hand.reason ?? "");
-    const joints = hand.joints ?? [];
-    this.#showJoints(joints);
+    this.#showJoints();
     this.element.querySelector(".joints-title").hidden = !this.joints.size;
     const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
     setText(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
@@ -38,17 +44,16 @@ export class Regions {
     }
   }
 
-  #showJoints(joints) {
-    const now_ms = performance.now();
-    for (const [name, angle_rad] of joints) {
-      const joint = this.#joint(name);
-      joint.told_ms = now_ms;
-      setText(joint.angle, rounded((angle_rad * 180) / Math.PI, 0));
-    }
-    for (const [name, joint] of this.joints) {
-      if (now_ms - joint.told_ms <= JOINT_STAYS_MS) continue;
-      joint.pair.remove();
+  #showJoints() {
+    const since_ms = performance.now() - JOINT_STAYS_MS;
+    for (const [name, { angle_rad, told_ms }] of this.told) {
+      if (told_ms >= since_ms) {
+        setText(this.#joint(name).angle, rounded((angle_rad * 180) / Math.PI, 0));
+        continue;
+      }
+      this.joints.get(name)?.pair.remove();
       this.joints.delete(name);
+      this.told.delete(name);
     }
   }
 
@@ -79,7 +84,7 @@ export class Regions {
       const pair = document.createElement("div");
       pair.append(title, angle);
       this.element.querySelector(".joints").append(pair);
-      this.joints.set(name, { pair, angle, told_ms: 0 });
+      this.joints.set(name, { pair, angle });
     }
     return this.joints.get(name);
   }
