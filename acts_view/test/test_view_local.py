@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,14 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 from test_view_codec import decode
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
-from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.stop_signals import StopSignals
 from acts_driver.replay import ReplayOptions, open_recording
@@ -34,7 +30,6 @@ from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback, PlaybackState
 from acts_view.local.show import show
 from acts_view.local.sources import LocalSource, RecordedSource, open_recorded
-from acts_view.web.requests import Request, read_request
 
 pytestmark = pytest.mark.slow
 
@@ -314,31 +309,6 @@ def test_what_does_not_fit_is_counted_and_a_baseline_subtracted() -> None:
     skin.take([(SampleFrame(0, 0, 0, Scheme.RASTER, 4, 4, 0, small, small), 0)], None)
     assert (skin.rejected, skin.newest()) == (1, None)
     assert "4 x 4" in skin.problem
-
-
-@given(st.text() | st.binary() | st.builds(json.dumps, st.dictionaries(st.text(), st.integers() | st.text())))
-def test_anything_is_a_request_or_refused(data: str | bytes) -> None:
-    try:
-        request = read_request(data)
-    except ViewRequestError:
-        return
-    assert request.number >= 0
-
-
-def test_a_request_is_read_as_it_is_and_an_odd_one_refused() -> None:
-    assert read_request('{"id":3,"do":"seek","value":1.5}') == Request(3, "seek", value=1.5)
-    for text in (
-        '{"id":1,"do":"seek","value":NaN}',
-        '{"id":1,"do":"seek","value":1e999}',
-        '{"id":1,"do":"seek","value":[1]}',
-        '{"id":1,"do":"seek","more":1}',
-        '{"id":true,"do":"seek"}',
-        '{"do":"seek"}',
-        "[" * 900,
-        json.dumps({"id": 1, "do": "x" * 201}),
-    ):
-        with pytest.raises(ViewRequestError):
-            read_request(text)
 
 
 class Shown:

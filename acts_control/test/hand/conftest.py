@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from dynamixel_bus import Bus
+from hand_loop_rig import Running
 
 
 @pytest.fixture
@@ -17,3 +18,11 @@ def bus(tmp_path: Path) -> Iterator[Bus]:
     bus = Bus(tmp_path)
     yield bus
     bus.close()
+
+
+@pytest.fixture
+def running(bus: Bus) -> Iterator[Running]:
+    running = Running(bus)
+    yield running
+    running.loop.close()
+    assert {motor["torque_enable"] for motor in bus.motors()} == {0}

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -21,14 +21,6 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def running(bus: Bus) -> Iterator[Running]:
-    running = Running(bus)
-    yield running
-    running.loop.close()
-    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
 
 
 def test_a_command_is_followed_no_faster_than_allowed_and_kept(bus: Bus) -> None:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 
 import pytest
@@ -17,14 +16,6 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import HandReading
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def running(bus: Bus) -> Iterator[Running]:
-    running = Running(bus)
-    yield running
-    running.loop.close()
-    assert {motor["torque_enable"] for motor in bus.motors()} == {0}
 
 
 def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, running: Running) -> None:

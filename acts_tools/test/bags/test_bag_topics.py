@@ -1,24 +1,21 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Recording and playing over real DDS. ROS_DOMAIN_IDs 84 to 88 and 190."""
+"""Recording over real DDS. ROS_DOMAIN_IDs 84 to 87 and 190."""
 
 from __future__ import annotations
 
-import os
 import random
 import re
 import signal
-import subprocess
-import sys
 import time
 from array import array
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
+from bag_commands import TIMEOUT_S, acts
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
@@ -29,7 +26,7 @@ from std_msgs.msg import String
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.bags import recorder as recorder_module
-from acts_ros.bags.message_types import Definitions, message_class
+from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.recorder import Recorder
 from acts_ros.bags.writing import BagWriter
@@ -38,25 +35,6 @@ from acts_tools.bags.player import Player
 from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
-
-TIMEOUT_S = 30.0
-
-
-@contextmanager
-def acts(*words: str, domain_id: int) -> Iterator[subprocess.Popen[str]]:
-    """An acts command as a process; killed at the end of the block should it still run."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "acts_tools", *words],
-        env={**os.environ, "ROS_DOMAIN_ID": str(domain_id)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def subscribed(probe: Probe, publishers: list[Publisher]) -> None:
@@ -323,95 +301,3 @@ def test_a_weaker_publisher_that_comes_later_is_recorded_too(probe: Probe, tmp_p
 
     record_here(probe, tmp_path / "bag", None, until)
     assert any(b"2\0" in data for topic, data in contents(tmp_path / "bag") if topic == "/word")
-
-
-def make_bag(path: Path, topics: dict[str, str], stamps_ms: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
-    """A bag of strings with known stamps; topics in turn."""
-    clock = iter(stamp * 10**6 for stamp in stamps_ms)
-    bag = BagWriter(path)
-    definition, type_hash = Definitions().describe("std_msgs/msg/String")
-    handles = [bag.add_topic(topic, kind, definition, type_hash, []) for topic, kind in topics.items()]
-    with monkeypatch.context() as patched:
-        patched.setattr(time, "time_ns", lambda: next(clock))
-        for index in range(len(stamps_ms)):
-            text = str(index).encode() + b"\0"
-            data = b"\0\1\0\0" + len(text).to_bytes(4, "little") + text
-            bag.write(handles[index % len(handles)], data)
-    bag.close()
-
-
-def test_messages_are_played_at_their_times_by_absolute_deadlines(
-    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String"}, [1000, 1010, 1200, 1201], monkeypatch)
-    deadlines: list[float] = []
-    with open_bag(tmp_path / "bag") as bag:
-        player = Player(probe.node, bag, ["/a"], print)
-
-        def sleep_until(deadline_s: float) -> bool:
-            deadlines.append(deadline_s)
-            return len(deadlines) < 8
-
-        assert player.play(2.0, sleep_until)
-        assert [round((deadline - deadlines[0]) * 1e3, 3) for deadline in deadlines] == [0.0, 5.0, 100.0, 100.5]
-        assert player.report.published == 4
-        assert not player.play(2.0, sleep_until)  # told to stop before the last one
-        assert player.report.published == 7
-
-
-def test_unknown_topics_and_types_are_refused_or_left_out(
-    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String", "/b": "gone_msgs/msg/Gone"}, [1, 2, 3, 4], monkeypatch)
-    said: list[str] = []
-    with open_bag(tmp_path / "bag") as bag:
-        with pytest.raises(RecordingError, match=r"no topic '/c' \(it has: /a, /b\)"):
-            Player(probe.node, bag, ["/c"], print)
-        with pytest.raises(RecordingError, match="no topic that can be played"):
-            Player(probe.node, bag, ["/b"], print)
-        player = Player(probe.node, bag, None, said.append)
-        assert player.play(1.0, lambda _deadline_s: True)
-        assert player.report.published == 2
-    assert len(said) == 1
-    assert said[0].startswith("not played: /b: unknown message type 'gone_msgs/msg/Gone'")
-
-
-@pytest.mark.parametrize(
-    ("definition", "message"),
-    [
-        ("string data\nuint32 number", "/a was recorded with another definition of std_msgs/msg/String"),
-        ("no definition at all", "the recorded definition of std_msgs/msg/String cannot be read"),
-        ("", "/a was recorded with another definition of std_msgs/msg/String"),
-    ],
-)
-def test_messages_of_another_definition_are_not_played(
-    probe: Probe, tmp_path: Path, definition: str, message: str
-) -> None:
-    bag = BagWriter(tmp_path / "bag")
-    changed = bag.add_topic("/a", "std_msgs/msg/String", definition, "RIHS01_0", [])
-    same = bag.add_topic("/b", "std_msgs/msg/Empty", *Definitions().describe("std_msgs/msg/Empty"), [])
-    bag.write(changed, b"\0\1\0\0\1\0\0\0\0")
-    bag.write(same, b"\0\1\0\0\0")
-    bag.close()
-    said: list[str] = []
-    with open_bag(tmp_path / "bag") as opened:
-        player = Player(probe.node, opened, None, said.append)
-        assert player.play(1.0, lambda _deadline_s: True)
-        assert player.report.published == 1
-    assert len(said) == 1
-    assert said[0].startswith(f"not played: /a: {message}")
-
-
-def test_playing_in_a_loop_reaches_subscribers_in_order_until_ctrl_c(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String", "/b": "std_msgs/msg/String"}, list(range(20)), monkeypatch)
-    with Probe(88) as probe, acts("play", str(tmp_path / "bag"), "--loop", "-t", "a", domain_id=88) as process:
-        texts = [message.data for message in probe.wait_for_messages("/a", String, 40, TIMEOUT_S)]
-        assert probe.node.count_publishers("/b") == 0
-        process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=TIMEOUT_S)
-    assert process.returncode == 0
-    assert re.search(r"\[play\] \d+ messages in", output)
-    first = texts.index("0")
-    assert texts[first : first + 10] == [str(index) for index in range(0, 20, 2)]

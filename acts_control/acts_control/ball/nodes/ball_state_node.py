@@ -210,8 +210,9 @@ class BallStateNode(PollingNode):
         }
         foreign = ""
         if self._foreign:
+            named = f"in the frame {self._foreign_frame!r}"
             foreign = (
-                f"{self._foreign} contacts in the frame {self._foreign_frame!r} were left out: "
+                f"{counted(self._foreign, f'contact {named} was', f'contacts {named} were')} left out: "
                 f"that of the skin is {self._frame_id!r} (parameter frame_id)"
             )
         if not arrived:

@@ -1,0 +1,123 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Playing over real DDS. ROS_DOMAIN_IDs 88 and 194."""
+
+from __future__ import annotations
+
+import re
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bag_commands import TIMEOUT_S, acts
+from std_msgs.msg import String
+
+from acts_core.errors import RecordingError
+from acts_ros.bags.message_types import Definitions
+from acts_ros.bags.reading import open_bag
+from acts_ros.bags.writing import BagWriter
+from acts_tools.bags.player import Player
+from acts_tools.testing.probe import Probe
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def probe() -> Iterator[Probe]:
+    with Probe(194) as made:
+        yield made
+
+
+def make_bag(path: Path, topics: dict[str, str], stamps_ms: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bag of strings with known stamps; topics in turn."""
+    clock = iter(stamp * 10**6 for stamp in stamps_ms)
+    bag = BagWriter(path)
+    definition, type_hash = Definitions().describe("std_msgs/msg/String")
+    handles = [bag.add_topic(topic, kind, definition, type_hash, []) for topic, kind in topics.items()]
+    with monkeypatch.context() as patched:
+        patched.setattr(time, "time_ns", lambda: next(clock))
+        for index in range(len(stamps_ms)):
+            text = str(index).encode() + b"\0"
+            data = b"\0\1\0\0" + len(text).to_bytes(4, "little") + text
+            bag.write(handles[index % len(handles)], data)
+    bag.close()
+
+
+def test_messages_are_played_at_their_times_by_absolute_deadlines(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String"}, [1000, 1010, 1200, 1201], monkeypatch)
+    deadlines: list[float] = []
+    with open_bag(tmp_path / "bag") as bag:
+        player = Player(probe.node, bag, ["/a"], print)
+
+        def sleep_until(deadline_s: float) -> bool:
+            deadlines.append(deadline_s)
+            return len(deadlines) < 8
+
+        assert player.play(2.0, sleep_until)
+        assert [round((deadline - deadlines[0]) * 1e3, 3) for deadline in deadlines] == [0.0, 5.0, 100.0, 100.5]
+        assert player.report.published == 4
+        assert not player.play(2.0, sleep_until)  # told to stop before the last one
+        assert player.report.published == 7
+
+
+def test_unknown_topics_and_types_are_refused_or_left_out(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String", "/b": "gone_msgs/msg/Gone"}, [1, 2, 3, 4], monkeypatch)
+    said: list[str] = []
+    with open_bag(tmp_path / "bag") as bag:
+        with pytest.raises(RecordingError, match=r"no topic '/c' \(it has: /a, /b\)"):
+            Player(probe.node, bag, ["/c"], print)
+        with pytest.raises(RecordingError, match="no topic that can be played"):
+            Player(probe.node, bag, ["/b"], print)
+        player = Player(probe.node, bag, None, said.append)
+        assert player.play(1.0, lambda _deadline_s: True)
+        assert player.report.published == 2
+    assert len(said) == 1
+    assert said[0].startswith("not played: /b: unknown message type 'gone_msgs/msg/Gone'")
+
+
+@pytest.mark.parametrize(
+    ("definition", "message"),
+    [
+        ("string data\nuint32 number", "/a was recorded with another definition of std_msgs/msg/String"),
+        ("no definition at all", "the recorded definition of std_msgs/msg/String cannot be read"),
+        ("", "/a was recorded with another definition of std_msgs/msg/String"),
+    ],
+)
+def test_messages_of_another_definition_are_not_played(
+    probe: Probe, tmp_path: Path, definition: str, message: str
+) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    changed = bag.add_topic("/a", "std_msgs/msg/String", definition, "RIHS01_0", [])
+    same = bag.add_topic("/b", "std_msgs/msg/Empty", *Definitions().describe("std_msgs/msg/Empty"), [])
+    bag.write(changed, b"\0\1\0\0\1\0\0\0\0")
+    bag.write(same, b"\0\1\0\0\0")
+    bag.close()
+    said: list[str] = []
+    with open_bag(tmp_path / "bag") as opened:
+        player = Player(probe.node, opened, None, said.append)
+        assert player.play(1.0, lambda _deadline_s: True)
+        assert player.report.published == 1
+    assert len(said) == 1
+    assert said[0].startswith(f"not played: /a: {message}")
+
+
+def test_playing_in_a_loop_reaches_subscribers_in_order_until_ctrl_c(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String", "/b": "std_msgs/msg/String"}, list(range(20)), monkeypatch)
+    with Probe(88) as probe, acts("play", str(tmp_path / "bag"), "--loop", "-t", "a", domain_id=88) as process:
+        texts = [message.data for message in probe.wait_for_messages("/a", String, 40, TIMEOUT_S)]
+        assert probe.node.count_publishers("/b") == 0
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 0
+    assert re.search(r"\[play\] \d+ messages in", output)
+    first = texts.index("0")
+    assert texts[first : first + 10] == [str(index) for index in range(0, 20, 2)]
