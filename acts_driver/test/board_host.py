@@ -89,12 +89,12 @@ class SimpleBoard:
         self.held = b""
 
     def receive(self, data: bytes) -> list[BoardMessage]:
-        from acts_core.wire import BoardState, ReplyStatus, cobs_reference
+        from acts_core.wire import BoardState, ReplyStatus, cobs
         from acts_core.wire.board_messages import decode_message
         from acts_core.wire.commands import NO_MODEL, encode_reply
         from acts_core.wire.packets import PacketType, unseal
 
-        kind, content = unseal(cobs_reference.decode(data[:-1]))
+        kind, content = unseal(cobs.decode(data[:-1]))
         request = int.from_bytes(content[:4], "little")
         status, detail = ReplyStatus.OK, 0
         if kind == PacketType.UPLOAD_BEGIN:
@@ -109,4 +109,4 @@ class SimpleBoard:
             self.held = bytes(self.uploaded)
         state = BoardState((0, 1, 0), 1, 0, BoardSettings(), False, True, NO_MODEL, 262_144, 0, 0)
         packet = encode_reply(Reply(request, kind, status, detail, state))
-        return [decode_message(cobs_reference.decode(packet[:-1]))]
+        return [decode_message(cobs.decode(packet[:-1]))]

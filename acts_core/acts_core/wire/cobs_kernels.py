@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Consistent Overhead Byte Stuffing in numba; the tests compare it with `cobs_reference`."""
+"""Consistent Overhead Byte Stuffing in numba; the tests compare it with `acts_core.wire.cobs`."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def encode_into(data: bytes, encoded: NDArray[np.uint8]) -> int:
     data : bytes
         The packet.
     encoded : np.ndarray [shape=(n,), dtype=uint8]
-        Where the result goes; ``len(data) + len(data) // 254 + 1`` bytes always suffice.
+        Where the result goes; `acts_core.wire.cobs.encoded_size_max` bytes always suffice.
 
     Returns
     -------

@@ -4,7 +4,7 @@
 """Head, checksum and stuffing of all packets between host and board. `docs/wire_protocol.md` is the description.
 
 A packet is little-endian and begins with type, version and its own length; a CRC-32 ends it. It travels stuffed (see
-`acts_core.wire.cobs_reference`) and followed by one zero byte.
+`acts_core.wire.cobs`) and followed by one zero byte.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from enum import IntEnum
 import numpy as np
 
 from acts_core.errors import PacketError
+from acts_core.wire.cobs import DELIMITER, encoded_size_max
 from acts_core.wire.cobs_kernels import encode_into
-from acts_core.wire.cobs_reference import DELIMITER, encoded_size_max
 
 VERSION = 1
 

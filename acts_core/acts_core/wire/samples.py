@@ -24,8 +24,8 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import REPEATING
-from acts_core.wire import cobs_reference
 from acts_core.wire.board_messages import BoardMessage, decode_message
+from acts_core.wire.cobs import DELIMITER, encoded_size_max
 from acts_core.wire.cobs_kernels import decode_into
 from acts_core.wire.delimited import DelimitedDecoder
 from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, stuffed, version_mismatch
@@ -135,7 +135,7 @@ class StreamDecoder(DelimitedDecoder):
     """
 
     def __init__(self, on_message: Callable[[BoardMessage], None] | None = None) -> None:
-        super().__init__(cobs_reference.DELIMITER, cobs_reference.encoded_size_max(PACKET_SIZE_MAX))
+        super().__init__(DELIMITER, encoded_size_max(PACKET_SIZE_MAX))
         self.messages = 0
         self._on_message = on_message
         self._seen = np.zeros(MAX_SIDE**2, dtype=np.uint32)

@@ -28,7 +28,7 @@ from acts_core.wire import (
     Reply,
     ReplyStatus,
     StreamDecoder,
-    cobs_reference,
+    cobs,
     encode_configure,
     encode_frame,
     encode_query,
@@ -117,7 +117,7 @@ def same(one: BoardMessage, other: BoardMessage) -> bool:
 def unstuffed(wire: bytes) -> bytes:
     assert wire.endswith(b"\0")
     assert wire.count(b"\0") == 1
-    return cobs_reference.decode(wire[:-1])
+    return cobs.decode(wire[:-1])
 
 
 def command(kind: int, request: int, body: bytes) -> bytes:

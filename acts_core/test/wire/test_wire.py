@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.wire import StreamDecoder, cobs_reference, encode_frame
+from acts_core.wire import StreamDecoder, cobs, encode_frame
 from acts_core.wire.sample_kernels import first_fault
 from acts_core.wire.samples import PACKET_SIZE_MAX, sample_fault
 
@@ -91,14 +91,14 @@ def packet_of(frame: SampleFrame, *, crc: bool = True, **changes: int) -> bytes:
     assert set(changes) <= set(fields)
     body = struct.pack("<BBHIQIIBBBBHH", *(fields | changes).values())
     body += b"".join(struct.pack("<H", value) for value in [*frame.indices.tolist(), *frame.counts.tolist()])
-    return cobs_reference.encode(body + struct.pack("<I", zlib.crc32(body) ^ (not crc))) + b"\x00"
+    return cobs.encode(body + struct.pack("<I", zlib.crc32(body) ^ (not crc))) + b"\x00"
 
 
 def test_layout_byte_by_byte() -> None:
     encoded = encode_frame(example())
     assert encoded[-1] == 0
     assert encoded == packet_of(example())
-    packet = cobs_reference.decode(encoded[:-1])
+    packet = cobs.decode(encoded[:-1])
     assert packet[:4] == b"\x01\x01\x30\x00"
     assert packet[4:8] == b"\x07\x00\x00\x00"
     assert int.from_bytes(packet[8:16], "little") == 1_007_000
@@ -119,7 +119,7 @@ def test_the_largest_frame_fits() -> None:
         counts=np.full(size, 1023, dtype=np.uint16),
     )
     encoded = encode_frame(frame)
-    assert len(cobs_reference.decode(encoded[:-1])) == PACKET_SIZE_MAX
+    assert len(cobs.decode(encoded[:-1])) == PACKET_SIZE_MAX
     assert all_same(StreamDecoder().feed(encoded), [frame])
 
 
@@ -222,7 +222,7 @@ def test_endless_garbage_keeps_memory_bounded_and_counts_every_byte() -> None:
     chunk = b"\x55" * 4096
     for _ in range(500):
         assert decoder.feed(chunk) == []
-    assert len(decoder._pending) <= cobs_reference.encoded_size_max(PACKET_SIZE_MAX)
+    assert len(decoder._pending) <= cobs.encoded_size_max(PACKET_SIZE_MAX)
     assert decoder.malformed == 1
     assert decoder.feed(b"\x00" + encode_frame(example())) != []
     assert decoder.bytes_discarded == 500 * 4096

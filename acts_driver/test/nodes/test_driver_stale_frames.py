@@ -13,7 +13,7 @@ from pathlib import Path
 from pty_board import DEADLINE_S, PtyBoard, frame, wait_for
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, cobs_reference, encode_frame
+from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, cobs, encode_frame
 from acts_core.wire.commands import NO_MODEL, encode_reply
 from acts_driver.board.session import FIRMWARE
 from acts_driver.nodes.intake import Intake
@@ -22,18 +22,18 @@ from acts_driver.settings import DriverSettings
 
 
 def reply_to(command: bytes) -> bytes:
-    packet = cobs_reference.decode(command)
+    packet = cobs.decode(command)
     state = BoardState((*FIRMWARE, 0), 7, 0, BoardSettings(), False, False, NO_MODEL, 262_144, 0, 0)
     return encode_reply(Reply(int.from_bytes(packet[4:8], "little"), packet[0], ReplyStatus.OK, 0, state))
 
 
 def read_command(board: PtyBoard) -> bytes:
     data = b""
-    while not data.endswith(cobs_reference.DELIMITER):
+    while not data.endswith(cobs.DELIMITER):
         readable, _, _ = select.select([board.master], [], [], DEADLINE_S)
         assert readable, "no command came"
         data += os.read(board.master, 4096)
-    return data.split(cobs_reference.DELIMITER)[0]
+    return data.split(cobs.DELIMITER)[0]
 
 
 def open_intake(board: PtyBoard, published: list[SampleFrame]) -> Intake:
@@ -58,7 +58,7 @@ def test_frames_of_the_session_before_are_not_used(tmp_path: Path) -> None:
         def play() -> None:
             command = read_command(board)
             # In one piece: the reader may find all of it at once.
-            board.write(old[5:] + cobs_reference.DELIMITER + reply_to(command) + encode_frame(new[0]))
+            board.write(old[5:] + cobs.DELIMITER + reply_to(command) + encode_frame(new[0]))
 
         player = threading.Thread(target=play)
         player.start()

@@ -22,7 +22,7 @@ from acts_core.wire import (
     BoardSettings,
     Reply,
     ReplyStatus,
-    cobs_reference,
+    cobs,
     encode_configure,
     encode_query,
 )
@@ -225,7 +225,7 @@ def test_commands_count_though_nobody_reads() -> None:
 def test_commands_that_cannot_be(kind: int, version: int, body: bytes, told: int, status: ReplyStatus) -> None:
     packet = struct.pack("<BBHI", kind, version, 12 + len(body) + told, 77) + body
     with CoreFirmware() as firmware:
-        reply = firmware.ask(cobs_reference.encode(packet + struct.pack("<I", zlib.crc32(packet))) + b"\0")
+        reply = firmware.ask(cobs.encode(packet + struct.pack("<I", zlib.crc32(packet))) + b"\0")
         assert (reply.request, reply.command, reply.status, reply.detail) == (77, kind, status, 0)
         assert reply.state.settings == BoardSettings()
         assert reply.state.bad_commands == 0

@@ -16,7 +16,7 @@ from acts_core.wire import (
     BoardObject,
     BoardSettings,
     StreamDecoder,
-    cobs_reference,
+    cobs,
     encode_configure,
 )
 
@@ -36,7 +36,7 @@ def test_images(sequence: int, board_us: int, duration_us: int, rows: int, cols:
     )
     packet = core_firmware.encode_image(sequence, board_us, duration_us, counts)
     messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
+    StreamDecoder(on_message=messages.append).feed(cobs.encode(packet) + b"\0")
     (image,) = messages
     assert isinstance(image, BoardImage)
     assert (image.sequence, image.board_us, image.duration_us) == (sequence, board_us, duration_us)
@@ -51,7 +51,7 @@ def test_objects(sequence: int, board_us: int, duration_us: int, values: list[fl
     number = data.draw(st.none() | st.integers(0, len(values) - 1))
     packet = core_firmware.encode_object(sequence, board_us, duration_us, number, residuals)
     messages: list[object] = []
-    StreamDecoder(on_message=messages.append).feed(cobs_reference.encode(packet) + b"\0")
+    StreamDecoder(on_message=messages.append).feed(cobs.encode(packet) + b"\0")
     (found,) = messages
     assert isinstance(found, BoardObject)
     assert (found.sequence, found.board_us, found.duration_us) == (sequence, board_us, duration_us)

@@ -5,7 +5,8 @@
 
 Every run of up to 254 bytes without a zero is preceded by a code, its length plus one; a code below 255 also stands for
 the zero that ended the run (Cheshire and Baker, IEEE/ACM Transactions on Networking 7(2), 1999,
-doi:10.1109/90.769765). This is the reference implementation; the stream is decoded by `acts_core.wire.cobs_kernels`.
+doi:10.1109/90.769765). Here it is in plain Python, one packet at a time; `acts_core.wire.cobs_kernels` is the same for
+the stream. The tests compare that and the firmware with this.
 """
 
 from __future__ import annotations
