@@ -3,7 +3,7 @@
 
 """Update of statistics and baseline by one frame, in numba, without allocation.
 
-`baseline_reference` is the reference implementation.
+`baseline_reference` in the tests is the reference implementation.
 """
 
 from __future__ import annotations

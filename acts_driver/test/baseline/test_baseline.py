@@ -6,6 +6,7 @@
 from pathlib import Path
 from typing import Any
 
+import baseline_reference
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
-from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels, baseline_reference
+from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
 from acts_driver.baseline.baseline import BaselineSource
 from acts_driver.baseline.baseline_tracker import BaselineConfig
 

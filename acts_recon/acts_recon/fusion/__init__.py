@@ -3,8 +3,8 @@
 
 """Fusion of samples over time: an image at every frame out of all samples so far.
 
-In come samples, frame after frame; out come the image and the standard deviation of each taxel. The kernels and a
-reference implementation in double precision are tested against one another.
+In come samples, frame after frame; out come the image and the standard deviation of each taxel. The tests compare
+the kernels with a reference implementation in double precision.
 """
 
 from acts_recon.fusion.fusion import FusionConfig, FusionEstimator

@@ -43,7 +43,7 @@ Noise of a known size is shown as 0, though it reads more in the mean: no readin
 noise, it is taken for `NOISE_COUNTS` at first, and the mean of the tile's low readings is shown: it may be what
 is there.
 
-`fusion_kernels` does the work; `fusion_reference` is the reference implementation, in double precision.
+`fusion_kernels` does the work; `fusion_reference` in the tests is the reference implementation, in double precision.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Fusion of samples over time in numba: the same as `fusion_reference`, in float32 and without allocation.
+"""Fusion of samples over time in numba: the same as `fusion_reference` in the tests, in float32 and without allocation.
 
 `fuse` takes one frame through the steps that `fusion` explains: find the velocities, predict the image to the end of
 the frame, update it by the samples, interpolate the innovations between them, and compute every taxel's sigma.

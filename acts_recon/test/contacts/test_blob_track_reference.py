@@ -5,6 +5,7 @@
 
 import numpy as np
 import pytest
+from blob_track_reference import BlobTrackerReference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -12,7 +13,6 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.contacts import BlobConfig, BlobTracker
-from acts_recon.contacts.blob_track_reference import BlobTrackerReference
 
 pytestmark = pytest.mark.slow
 

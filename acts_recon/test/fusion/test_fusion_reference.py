@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from fusion_patches_reference import PatchesReference
+from fusion_reference import FusionReference
 from fusion_streams import DURATION_S, SMALL, Frame, Skin, sliding, streams
 from hypothesis import given, settings
 from recon_samples import layouts
@@ -14,8 +16,6 @@ from recon_samples import layouts
 from acts_core.array import ArrayGeometry
 from acts_core.skin import NO_PATCH, Layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion.fusion_patches_reference import PatchesReference
-from acts_recon.fusion.fusion_reference import FusionReference
 from acts_recon.images import NOISE_COUNTS, borders_of
 
 pytestmark = pytest.mark.slow

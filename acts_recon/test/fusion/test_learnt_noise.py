@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from fusion_reference import FusionReference
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
@@ -14,7 +15,6 @@ from acts_core.errors import ArrayError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.skin import layout
 from acts_recon.fusion import FusionConfig, FusionEstimator
-from acts_recon.fusion.fusion_reference import FusionReference
 from acts_recon.images import NOISE_COUNTS
 
 pytestmark = pytest.mark.slow

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Reference implementation of `acts_driver.baseline.baseline_kernels` in NumPy, for reading and for tests."""
+"""Reference implementation of `acts_driver.baseline.baseline_kernels` in NumPy."""
 
 from __future__ import annotations
 

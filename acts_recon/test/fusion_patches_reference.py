@@ -6,9 +6,9 @@
 from __future__ import annotations
 
 import numpy as np
+from fusion_reference import Floats, FusionReference, lags
 from numpy.typing import NDArray
 
-from acts_recon.fusion.fusion_reference import Floats, FusionReference, lags
 from acts_recon.fusion.fusion_state import Tuning
 from acts_recon.images import Borders
 
