@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.registry_enum import FromRegistry
+from acts_core.registry import FromRegistry
 from acts_core.sampling import REPEATING, SCHEME_NUMBERS
 
 

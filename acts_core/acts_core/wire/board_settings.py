@@ -13,7 +13,7 @@ from typing import Any
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import SettingsError
-from acts_core.registry_enum import FromRegistry
+from acts_core.registry import FromRegistry
 from acts_core.sampling import (
     BOARD_OWN_SETTINGS,
     NEIGHBOURS,

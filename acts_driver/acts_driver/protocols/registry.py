@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from acts_core.errors import SettingsError
+from acts_core.registry import named
 from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.protocols.protocol import Protocol
 
@@ -23,6 +23,4 @@ def protocol_named(name: str) -> Protocol:
     SettingsError
         Naming those that exist.
     """
-    if name not in PROTOCOLS:
-        raise SettingsError(f"protocol {name!r}: allowed is one of {', '.join(PROTOCOLS)}")
-    return PROTOCOLS[name]
+    return named(name, PROTOCOLS, "protocol")

@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
+from acts_core.registry import named
 
 Array = NDArray[np.float64]
 
@@ -153,7 +153,4 @@ def body_named(name: str) -> Body:
     SettingsError
         Naming those that exist.
     """
-    try:
-        return BODIES[name]
-    except KeyError:
-        raise SettingsError(f"body {name!r} does not exist; known are {', '.join(BODIES)}") from None
+    return named(name, BODIES, "body")

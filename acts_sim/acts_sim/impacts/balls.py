@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from acts_core.errors import SettingsError
+from acts_core.registry import named
 from acts_core.settings import setting, validate
 
 
@@ -66,7 +66,4 @@ def ball_named(name: str) -> Ball:
     SettingsError
         Naming those that exist.
     """
-    try:
-        return BALLS[name]
-    except KeyError:
-        raise SettingsError(f"ball {name!r} does not exist; known are {', '.join(BALLS)}") from None
+    return named(name, BALLS, "ball")

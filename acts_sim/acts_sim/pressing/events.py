@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
+from acts_core.registry import named
 from acts_sim.pressing.contact_model import ContactModel, Press, skin_of
 from acts_sim.pressing.event_contacts import GOLF_BALL, SLIDING
 from acts_sim.pressing.objects import ContactObject
@@ -81,9 +82,8 @@ def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:
     SettingsError
         When there is no such kind.
     """
-    if name not in EVENTS:
-        raise SettingsError(f"event {name!r} does not exist; known are {', '.join(EVENTS)}")
-    return [EVENTS[name].make(np.random.default_rng([seed, number])) for number in range(recordings)]
+    event = named(name, EVENTS, "event")
+    return [event.make(np.random.default_rng([seed, number])) for number in range(recordings)]
 
 
 @register("bounce", 40)

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acts_core.errors import SettingsError
+from acts_core.registry import named
 from acts_sim.pressing.outlines import (
     Field,
     bar,
@@ -91,10 +92,7 @@ def object_named(name: str) -> ContactObject:
     SettingsError
         When there is none; the message names those that exist.
     """
-    try:
-        return OBJECTS[name]
-    except KeyError:
-        raise SettingsError(f"object {name!r} does not exist; known are {', '.join(OBJECTS)}") from None
+    return named(name, OBJECTS, "object")
 
 
 # The 8 printed shapes.

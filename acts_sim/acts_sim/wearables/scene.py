@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
-from acts_core.errors import SettingsError
+from acts_core.registry import named
 from acts_core.skin import Layout, layout
 from acts_sim.pressing import ContactModel, FoamConfig
 from acts_sim.wearables.contacts import Contact
@@ -92,9 +92,7 @@ def worn_scene(name: str, rng: np.random.Generator) -> WornScene:
     SettingsError
         When there is no such scene.
     """
-    if name not in SCENES:
-        raise SettingsError(f"scene {name!r} does not exist; known are {', '.join(SCENES)}")
-    kind = SCENES[name]
+    kind = named(name, SCENES, "scene")
     arranged = layout(kind.layout)
     foam = FoamConfig(stiffness_n_per_m3=kind.stiffness_n_per_m3, noise_counts=0.0, subsamples=2)
     skin = ContactModel(arranged.geometry(), foam, seed=int(rng.integers(2**31)))
