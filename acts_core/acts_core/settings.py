@@ -250,6 +250,14 @@ def unknown_key_message(key: str, known: Sequence[str], where: str) -> str:
     return f"{where}: unknown key {key!r}; {hint}"
 
 
+def is_given(text: str) -> bool:
+    """Whether the text of a setting names a thing: an empty one does not, nor ``none``.
+
+    Launch files write ``none``, because they cannot give an empty text.
+    """
+    return text not in ("", "none")
+
+
 def from_mapping(settings_class: type[T], values: Mapping[str, Any], where: str = "settings") -> T:
     """Build a settings dataclass from a mapping; keys that are missing keep their defaults.
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_core.errors import SettingsError
-from acts_core.settings import describe, from_mapping, from_text, rounded_up, setting, validate
+from acts_core.settings import describe, from_mapping, from_text, is_given, rounded_up, setting, validate
 
 
 @dataclass(frozen=True)
@@ -140,3 +140,8 @@ def test_a_limit_for_a_person_is_rounded_to_what_is_allowed(limit: float) -> Non
 )
 def test_a_limit_for_a_person_has_four_digits_at_most(limit: float, told: str) -> None:
     assert rounded_up(limit) == told
+
+
+@pytest.mark.parametrize(("text", "expected"), [("", False), ("none", False), ("None", True), ("plate.npz", True)])
+def test_an_empty_text_and_none_name_nothing(text: str, expected: bool) -> None:
+    assert is_given(text) is expected

@@ -10,15 +10,12 @@ from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
-from acts_core.settings import Changeable, default_of, describe, refuse_doubles, setting
+from acts_core.settings import Changeable, default_of, describe, is_given, refuse_doubles, setting
 from acts_driver.baseline import BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
 from acts_driver.protocols import PROTOCOLS, Decoder, OnMessage
 from acts_driver.replay import ReplayOptions, ReplaySource, open_recording
-
-NO_FILE = "none"
-"""What a launch file gives where there is no file; means the same as empty."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,7 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
     @property
     def is_replay(self) -> bool:
         """Whether a recording stands in for the board."""
-        return self.replay not in ("", NO_FILE)
+        return is_given(self.replay)
 
     @property
     def unused(self) -> tuple[str, ...]:

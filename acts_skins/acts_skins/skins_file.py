@@ -17,6 +17,7 @@ from typing import Any
 from acts_core.errors import ActsError, SettingsError
 from acts_core.files import Section, is_there, path_of, read_yaml, require_regular
 from acts_core.names import RULE, is_frame_name, is_short_name
+from acts_core.settings import is_given
 from acts_core.skin import LAYOUTS, layout_path
 from acts_core.transforms import Transform
 from acts_driver.port import AUTO, SERIAL_PREFIX
@@ -41,8 +42,6 @@ _PATHS_OF: dict[str, tuple[str, ...]] = {
     "reconstruction": ("dictionary", "force_response", "object_library"),
 }
 """Further parameters of the two nodes that are paths of files."""
-
-_NO_FILE = ("", "none")
 
 # Written by the driver's service ~/calibrate where it is missing.
 _MADE_LATER = ("calibration_file",)
@@ -102,7 +101,7 @@ class Skin:
             self._check_file(self.section, "replay", self.replay, may_be_folder=True)
         for node, given in (("driver", self.driver), ("reconstruction", self.reconstruction)):
             for key in _PATHS_OF[node]:
-                if key not in _MADE_LATER and isinstance(text := given.get(key), str) and text not in _NO_FILE:
+                if key not in _MADE_LATER and isinstance(text := given.get(key), str) and is_given(text):
                     further = self.section.section(node, f"{self.section.what}: {node}")
                     self._check_file(further, key, Path(text), may_be_folder=False)
 
@@ -144,7 +143,7 @@ class SkinsFile:
 
     def merged_in(self, base_frame: str = "") -> str:
         """Frame of the merged contacts: `base_frame`, or that of the file where it is empty or none."""
-        return self.base_frame if base_frame in ("", "none") else base_frame
+        return base_frame if is_given(base_frame) else self.base_frame
 
     def in_base(self, base_frame: str = "") -> dict[str, Transform]:
         """Transform from each skin to the frame of the merged contacts, see `merged_in`.
@@ -270,7 +269,7 @@ def _parameters(section: Section, node: str) -> dict[str, Any]:
     files = {
         key: str(_beside(further, key, text))
         for key in _PATHS_OF[node]
-        if isinstance(text := further.values.get(key), str) and text not in _NO_FILE
+        if isinstance(text := further.values.get(key), str) and is_given(text)
     }
     return {**{key: value for key, value in own.items() if value is not None}, **further.values, **files}
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from acts_core.errors import ActsError, BoardError, PortError
 from acts_core.runtime import LogCallback
+from acts_core.settings import is_given
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
 from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
 from acts_driver.board.layout import BoardLayout
@@ -332,7 +333,7 @@ class BoardSession:
         return None if self._model is None else self._model.model()
 
     def _file_of(self, parameters: BoardParameters) -> ModelFile | None:
-        return None if parameters.model in ("", "none") else ModelFile(Path(parameters.model), self.wake)
+        return ModelFile(Path(parameters.model), self.wake) if is_given(parameters.model) else None
 
     def _mismatch(self, state: BoardState) -> str:
         settings = state.settings

@@ -18,6 +18,7 @@ from acts_core.errors import ActsError, CalibrationError, SettingsError
 from acts_core.files import is_there, path_of
 from acts_core.frames import SampleFrame
 from acts_core.runtime import within_patience
+from acts_core.settings import is_given
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
 from acts_msgs.msg import Baseline as BaselineMessage
@@ -81,7 +82,7 @@ class BaselineServices:
 
     def _begin(self, parameters: BaselineParameters, rows: int, cols: int, wait_for: _WaitFor) -> None:
         file = parameters.calibration_file
-        path = None if file in ("", "none") else path_of(file, error=SettingsError)
+        path = path_of(file, error=SettingsError) if is_given(file) else None
         tracker = BaselineTracker(rows, cols, parameters.baseline_config())
 
         def load() -> Baseline | None:

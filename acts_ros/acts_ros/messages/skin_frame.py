@@ -10,6 +10,7 @@ import re
 from rclpy.node import Node
 
 from acts_core.errors import SettingsError
+from acts_core.settings import is_given
 
 _LEGAL = re.compile(r"[^\s\0/][^\s\0]*")
 
@@ -51,7 +52,7 @@ def skin_frame(node: Node, frame_id: str) -> str:
     SettingsError
         When tf2 does not take the name.
     """
-    if frame_id in ("", "none"):
+    if not is_given(frame_id):
         return node.get_namespace().strip("/").replace("/", "_") or "skin"
     check_frame_id(frame_id, "empty or none names it as the namespace")
     return frame_id

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.names import full_name
-from acts_core.settings import checked, default_of, describe
+from acts_core.settings import checked, default_of, describe, is_given
 from acts_core.skin import LAYOUTS, layout_path
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
 
 
 def _absolute_model(path: str) -> str:
-    return path if path in ("", "none") else str(Path(path).expanduser().absolute())
+    return str(Path(path).expanduser().absolute()) if is_given(path) else path
 
 
 def _absolute_layout(name_or_path: str) -> str:
