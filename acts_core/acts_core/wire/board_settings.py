@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import IntEnum
 from inspect import get_annotations
 from typing import Any
 
-from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.registry import FromRegistry
 from acts_core.sampling import (
@@ -19,12 +19,14 @@ from acts_core.sampling import (
     NEIGHBOURS,
     SCHEME_NUMBERS,
     SCHEMES,
+    OwnSetting,
     SamplingConfig,
     check_frame,
     check_names,
     frame_size,
     with_fields,
 )
+from acts_core.sampling.basis import CommonSettings
 from acts_core.settings import setting, validate
 from acts_core.wire.packets import version_mismatch
 
@@ -79,24 +81,14 @@ _Own: Any = with_fields("_Own", {own.name: own.as_board_setting() for own in BOA
 
 
 @dataclass(frozen=True)
-class BoardSettings(_Own):  # type: ignore[misc]
+class BoardSettings(_Own, CommonSettings):  # type: ignore[misc]
     """Settings of a board: how to sample, how fast, what to send besides samples, what its LED shows.
 
     The schemes' own settings are among them, by their names. A board takes all over as a whole or refuses them as a
     whole, by the same rules as this class.
     """
 
-    rows: int = setting(32, "rows of the array", minimum=1, maximum=MAX_SIDE)
-    cols: int = setting(32, "columns of the array", minimum=1, maximum=MAX_SIDE)
     scheme: str = setting("adaptive", "how the taxels of a frame are chosen", choices=tuple(SCHEME_NUMBERS))
-    neighbour_order: str = setting("columns", "order of the neighbour search", choices=_NEIGHBOUR_ORDERS)
-    m: int = setting(55, "taxels measured per frame; raster measures all", minimum=1, maximum=MAX_SIDE**2)
-    threshold_counts: int = setting(
-        180,
-        "counts above which adaptive and hybrid search a taxel's neighbours and tracking follows it",
-        minimum=0,
-        maximum=COUNT_MAX,
-    )
     touch_counts: int = setting(
         60,
         "counts above which recovery on the board and the LED take a taxel for touched",
@@ -108,28 +100,23 @@ class BoardSettings(_Own):  # type: ignore[misc]
     frame_period_us: int = setting(
         1000, "frames start no closer than this [us]; 0: as close as they can", minimum=0, maximum=FRAME_PERIOD_MAX_US
     )
-    seed: int = setting(1, "seed of random and hybrid sampling", minimum=0, maximum=2**64 - 1)
 
     def __post_init__(self) -> None:
         validate(self)
         check_frame(self.scheme, self.rows, self.cols, self.m)
         for own in SCHEMES[self.scheme].own_settings:
-            own.check(getattr(self, own.name), self.rows, self.cols, self.m, self.scheme)
+            own.check(self.own(own), self.rows, self.cols, self.m, self.scheme)
 
     @classmethod
     def from_sampling(cls, config: SamplingConfig) -> BoardSettings:
         """The settings that make a board sample as `config` says; what is not about sampling has its default."""
-        own: dict[str, Any] = {setting.name: config.own(setting) for setting in BOARD_OWN_SETTINGS.values()}
-        return cls(
-            rows=config.rows,
-            cols=config.cols,
-            scheme=config.scheme,
-            neighbour_order=config.neighbour_order,
-            m=config.m,
-            threshold_counts=config.threshold_counts,
-            seed=config.seed,
-            **own,
-        )
+        values: dict[str, Any] = {field.name: getattr(config, field.name) for field in fields(CommonSettings)}
+        values.update({setting.name: config.own(setting) for setting in BOARD_OWN_SETTINGS.values()})
+        return cls(**values)
+
+    def own(self, setting: OwnSetting) -> int:
+        """See `CommonSettings.own`: here it has the name that it has on the board."""
+        return int(getattr(self, setting.name))
 
     @property
     def frame_size(self) -> int:
@@ -138,7 +125,7 @@ class BoardSettings(_Own):  # type: ignore[misc]
 
     def to_bytes(self) -> bytes:
         """The settings as they stand in a packet."""
-        own = [getattr(self, setting.name) for setting in BOARD_OWN_SETTINGS.values()]
+        own = [self.own(setting) for setting in BOARD_OWN_SETTINGS.values()]
         return _LAYOUT.pack(
             self.rows,
             self.cols,

@@ -181,7 +181,7 @@ class BoardParameters(_Own):  # type: ignore[misc]
     def _own_value(self, setting: OwnSetting, own: BoardSettings, m: int, scheme: str) -> int:
         """What the board is told of a scheme's own setting, in frames of `m` taxels of `scheme`."""
         given = getattr(self, setting.parameter)
-        held = int(getattr(own, setting.name))
+        held = own.own(setting)
         if setting.share:
             return _quota(given, held, own.m, m, is_used=setting in SCHEMES[scheme].own_settings)
         return held if given < 0 else int(given)
