@@ -3,12 +3,13 @@
 
 """Sparse recovery: the image from the samples of one frame alone, as a sum of few atoms of a dictionary.
 
-In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here as a
-reference implementation and as kernels.
+In come samples and a dictionary of patches; out comes the image. FastOMP (paper, section "Reconstruction") is here in
+NumPy and as kernels.
 """
 
 from acts_recon.sparse import fastomp_kernels
 from acts_recon.sparse.dictionary import Dictionary, load_dictionary, save_dictionary
+from acts_recon.sparse.fastomp import REGULARISATION, SPARSITY_RATIO, fast_omp, sparsity
 from acts_recon.sparse.fastomp_kernels import FASTMATH, pursue, solve
 from acts_recon.sparse.fastomp_model import (
     ALLOWED,
@@ -24,7 +25,6 @@ from acts_recon.sparse.fastomp_model import (
     in_blocks,
     workspace,
 )
-from acts_recon.sparse.fastomp_reference import REGULARISATION, SPARSITY_RATIO, fast_omp, sparsity
 from acts_recon.sparse.patches import PatchLayout, patch_layout, patch_starts
 from acts_recon.sparse.reconstructor import Reconstructor, ReconstructorConfig
 from acts_recon.sparse.shipped import shipped_dictionary_path

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""FastOMP in numba: the same as `acts_recon.sparse.fastomp_reference`, in single precision and without allocation.
+"""FastOMP in numba: the same as `acts_recon.sparse.fastomp`, in single precision and without allocation.
 
 Most of the time goes into finding the atom that correlates most with a residual. All patches of a frame choose their
 first atom together, then their second one, and so on: a block of the dictionary is fetched once for all of them.
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
+from acts_recon.sparse.fastomp import REGULARISATION
 from acts_recon.sparse.fastomp_model import (
     ALLOWED,
     BEST,
@@ -26,7 +27,6 @@ from acts_recon.sparse.fastomp_model import (
     RESIDUAL_ROWS,
     Y_ROWS,
 )
-from acts_recon.sparse.fastomp_reference import REGULARISATION
 
 _REGULARISATION = np.float32(REGULARISATION)
 FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
@@ -45,7 +45,7 @@ def pursue(
     sums: NDArray[np.float32],
     largest: NDArray[np.float32],
 ) -> None:
-    """`acts_recon.sparse.fastomp_reference.fast_omp` on several problems with the same dictionary, in step.
+    """`acts_recon.sparse.fastomp.fast_omp` on several problems with the same dictionary, in step.
 
     The dictionary: as `fastomp_model.in_blocks` lays it out, and with an atom a row. Then the buffers of
     `fastomp_model.Problems`, filled in for the first `n_problems` of ``table[ORDER]``, whose contents are

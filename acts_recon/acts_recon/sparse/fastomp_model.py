@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.sparse.fastomp_reference import SPARSITY_RATIO, sparsity
+from acts_recon.sparse.fastomp import SPARSITY_RATIO, sparsity
 from acts_recon.sparse.patches import PatchLayout
 
 _CACHE_LINE_BYTES = 64

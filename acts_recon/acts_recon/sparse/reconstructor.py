@@ -16,8 +16,8 @@ from acts_core.skin import Layout
 from acts_recon.images import PlacedSamples, borders_of
 from acts_recon.sparse import fastomp_kernels as kernels
 from acts_recon.sparse.dictionary import Dictionary
+from acts_recon.sparse.fastomp import SPARSITY_RATIO
 from acts_recon.sparse.fastomp_model import PatchModel, workspace
-from acts_recon.sparse.fastomp_reference import SPARSITY_RATIO
 from acts_recon.sparse.patches import patch_layout
 
 

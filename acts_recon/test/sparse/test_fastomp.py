@@ -9,13 +9,62 @@ from numpy.typing import NDArray
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
-from acts_recon.sparse import Dictionary, PatchLayout, PatchModel, fast_omp, patch_layout, sparsity, workspace
+from acts_recon.sparse import (
+    SPARSITY_RATIO,
+    Dictionary,
+    PatchLayout,
+    PatchModel,
+    fast_omp,
+    patch_layout,
+    sparsity,
+    workspace,
+)
 from acts_recon.sparse import fastomp_kernels as kernels
-from acts_recon.sparse.fastomp_reference import recover_image
 
 pytestmark = pytest.mark.slow
 
 Frame = NDArray[np.uint16]
+
+
+def recover_image(
+    layout: PatchLayout,
+    atoms: NDArray[np.floating],
+    indices: NDArray[np.integer],
+    values: NDArray[np.floating],
+    *,
+    ratio: float = SPARSITY_RATIO,
+) -> NDArray[np.float64]:
+    """Reference implementation of the kernel, without clipping and without putting the samples back in.
+
+    Parameters
+    ----------
+    layout : PatchLayout
+    atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
+        Dictionary.
+    indices : np.ndarray [shape=(m,), dtype=int]
+        Row-major taxel indices, none twice.
+    values : np.ndarray [shape=(m,), dtype=float]
+        What was measured there; 0 where not pressed.
+    ratio : float
+        See `sparsity`.
+
+    Returns
+    -------
+    np.ndarray [shape=(rows, cols), dtype=float64]
+    """
+    value = np.zeros(layout.rows * layout.cols)
+    measured = np.zeros(value.size, dtype=bool)
+    value[indices] = values
+    measured[indices] = True
+    total = np.zeros(value.size)
+    for taxels in layout.taxels:
+        rows = np.flatnonzero(measured[taxels])
+        y = value[taxels[rows]]
+        if not y.any():
+            continue
+        chosen, coefficients = fast_omp(atoms[rows], y, sparsity(rows.size, ratio))
+        total[taxels] += np.asarray(atoms[:, chosen], dtype=np.float64) @ coefficients
+    return (total / layout.overlap).reshape(layout.rows, layout.cols)
 
 
 @pytest.mark.parametrize(("measured", "atoms"), [(1, 1), (2, 1), (5, 1), (6, 2), (10, 3), (14, 4), (64, 16)])

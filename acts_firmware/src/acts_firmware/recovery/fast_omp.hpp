@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // FastOMP: explains a few measured values as a sum of few columns of a dictionary. The paper's method ("Sparse Recovery
-// and Tactile Reconstruction"); acts_recon/sparse/fastomp_reference.py is its readable reference.
+// and Tactile Reconstruction"); acts_recon/sparse/fastomp.py is its readable reference.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""FastOMP: recovery of a tactile image from few taxels, patch by patch. Reference implementation of `fastomp_kernels`.
+"""FastOMP of one patch in NumPy, and what it shares with `fastomp_kernels`, which recovers whole images by it.
 
 FastOMP is orthogonal matching pursuit (OMP) with a QR factorisation by modified Gram-Schmidt. For a patch with measured
 pixels y and the measured rows A of the dictionary, starting from the residual r = y, each step
@@ -22,8 +22,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-
-from acts_recon.sparse.patches import PatchLayout
 
 REGULARISATION = 1e-4
 """Ridge: added to the squared norm of every orthogonalised column, which may be 0."""
@@ -82,44 +80,3 @@ def fast_omp(
     for i in range(s - 1, -1, -1):
         coefficients[i] = (v[i] - R[i, i + 1 : s] @ coefficients[i + 1 :]) / R[i, i]
     return np.array(chosen, dtype=np.int64), coefficients
-
-
-def recover_image(
-    layout: PatchLayout,
-    atoms: NDArray[np.floating],
-    indices: NDArray[np.integer],
-    values: NDArray[np.floating],
-    *,
-    ratio: float = SPARSITY_RATIO,
-) -> NDArray[np.float64]:
-    """Recover an image from samples, without clipping and without putting the samples back in.
-
-    Parameters
-    ----------
-    layout : PatchLayout
-    atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
-        Dictionary.
-    indices : np.ndarray [shape=(m,), dtype=int]
-        Row-major taxel indices, none twice.
-    values : np.ndarray [shape=(m,), dtype=float]
-        What was measured there; 0 where not pressed.
-    ratio : float
-        See `sparsity`.
-
-    Returns
-    -------
-    np.ndarray [shape=(rows, cols), dtype=float64]
-    """
-    value = np.zeros(layout.rows * layout.cols)
-    measured = np.zeros(value.size, dtype=bool)
-    value[indices] = values
-    measured[indices] = True
-    total = np.zeros(value.size)
-    for taxels in layout.taxels:
-        rows = np.flatnonzero(measured[taxels])
-        y = value[taxels[rows]]
-        if not y.any():
-            continue
-        chosen, coefficients = fast_omp(atoms[rows], y, sparsity(rows.size, ratio))
-        total[taxels] += np.asarray(atoms[:, chosen], dtype=np.float64) @ coefficients
-    return (total / layout.overlap).reshape(layout.rows, layout.cols)
