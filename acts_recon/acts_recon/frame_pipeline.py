@@ -23,6 +23,10 @@ class ArraySizeError(ArrayError):
     """A frame is of another array than the one it was given for."""
 
 
+class RepeatedFrameError(ArrayError):
+    """A frame came a second time: its samples are known already, and would count as two measurements."""
+
+
 class FramePipeline:
     """Checks, counts and recovers frame after frame; everything is compiled when the constructor is through.
 
@@ -58,6 +62,7 @@ class FramePipeline:
         self._forget_more = forget
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
         self._numbers = SequenceNumbers()
+        self._last = (-1, -1)
         self.every: SampleFrame | None = None
         self.frame: SampleFrame | None = None
         self.contact = Contact()
@@ -90,6 +95,7 @@ class FramePipeline:
         """Forget all frames: the next one is long after or before, or of another board."""
         self._forget()
         self._numbers = SequenceNumbers()
+        self._last = (-1, -1)
 
     def step(self, frame: SampleFrame, stamp_ns: int) -> int:
         """Recover one frame. A board that counts from the start again is another board.
@@ -109,6 +115,8 @@ class FramePipeline:
         ------
         ArraySizeError
             The frame is of another size; it is not counted.
+        RepeatedFrameError
+            The frame is the last one once more; it is not counted.
         ArrayError
             Its samples are not of this matrix. It has come, so it is not missing.
         """
@@ -127,6 +135,13 @@ class FramePipeline:
             raise ArraySizeError(
                 f"frame of {frame.rows} x {frame.cols} taxels, expected are {self.size[0]} x {self.size[1]}"
             )
+        # A board that begins anew may come to the number of the last frame, but not at the same time.
+        this = (frame.sequence, frame.board_us)
+        if this == self._last:
+            raise RepeatedFrameError(
+                f"frame {frame.sequence} came a second time, needed is each frame once: is its topic published twice?"
+            )
+        self._last = this
         if self._numbers.goes_back(frame.sequence):
             self._forget()
         return self._numbers.step(frame.sequence)

@@ -27,7 +27,7 @@ from acts_core.stop_signals import StopSignals
 from acts_core.words import counted
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_msgs.msg import Contact as ContactMessage
-from acts_recon.frame_pipeline import ArraySizeError, FramePipeline
+from acts_recon.frame_pipeline import ArraySizeError, FramePipeline, RepeatedFrameError
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
 from acts_recon.nodes.images_publisher import ImagesPublisher
@@ -216,6 +216,9 @@ class ReconstructionNode(Node):
         except ArraySizeError as error:
             self._reject("wrong_array_size", f"samples dropped: {error} by the parameters rows and cols")
             return
+        except RepeatedFrameError as error:
+            self._reject("repeated", f"samples dropped: {error}")
+            return
         except ArrayError as error:
             self._reject("bad_frame", f"samples dropped: {error}")
             return
@@ -278,6 +281,7 @@ class ReconstructionNode(Node):
             "lost": self._pipeline.lost,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
+            "rejected.repeated": self._rejected["repeated"],
             "rejected.bad_stamp": self._rejected["bad_stamp"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
             "not_published": self._untold,

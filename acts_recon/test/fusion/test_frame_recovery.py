@@ -10,6 +10,7 @@ import pytest
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame, Scheme
+from acts_recon.frame_pipeline import RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionSettings
 
@@ -52,6 +53,29 @@ def test_a_board_that_begins_anew_is_another_one(recovery: FrameRecovery) -> Non
     for sequence in range(1, 5):
         recovery.step(frame(sequence, 500), 200_000_000 + 1_000_000 * sequence)
     assert recovery.blobs[0].number != number
+
+
+def test_a_frame_that_comes_a_second_time_changes_nothing(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    for sequence in range(100, 110):
+        recovery.step(frame(sequence, 500), 1_000_000 * sequence)
+    number = recovery.blobs[0].number
+    image = recovery.recovery.image.copy()
+    with pytest.raises(RepeatedFrameError, match="frame 109 came a second time"):
+        recovery.step(frame(109, 0), 109_000_000)
+    assert recovery.recovery.image.tolist() == image.tolist()
+    assert recovery.step(frame(110, 500), 110_000_000) == 0
+    assert recovery.blobs[0].number == number
+    # After a reset nothing is known of it.
+    recovery.reset()
+    assert recovery.step(frame(110, 500), 110_000_000) == 0
+
+
+def test_a_board_that_begins_anew_at_the_same_number_is_another_one(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    recovery.step(frame(0, 500), 0)
+    assert recovery.step(frame(0, 0)._replace(board_us=7), 200_000_000) == 0
+    assert not recovery.recovery.image.any()
 
 
 def test_a_frame_that_is_refused_is_not_missing_as_well(recovery: FrameRecovery) -> None:

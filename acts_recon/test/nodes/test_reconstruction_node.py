@@ -230,6 +230,16 @@ def test_bad_messages_are_dropped_and_counted_and_nothing_else_is_lost(
     assert "samples dropped: frame of 16 x 32 taxels, expected are 32 x 32 by the parameters rows and cols" in log
 
 
+def test_samples_that_come_twice_are_dropped_and_told(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(42)
+    indices, counts = np.arange(55), np.full(55, 500)
+    for sequence in (0, 1, 1, 2):
+        bench.send(sequence, indices, counts)
+    bench.contact(2)
+    assert [message.sequence for message in bench.received["contact"]] == [0, 1, 2]
+    bench.diagnostics(lambda _, values: (values["rejected.repeated"], values["lost"]) == ("1", "0"))
+
+
 def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(42)
     indices = np.arange(10)

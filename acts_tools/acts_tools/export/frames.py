@@ -17,6 +17,7 @@ from sensor_msgs.msg import Image
 
 from acts_core.errors import ActsError, ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
+from acts_recon.frame_pipeline import RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros.messages import baseline_of, frame_of, ns_of, stamp_ns_of
@@ -107,6 +108,8 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
                 if latest is not None:
                     _subtract(recovery, latest, f"{beside} in '{path}'")
             yield _seen(recovery, samples)
+        except RepeatedFrameError:
+            continue
         except RecordingError:
             raise
         except ActsError as error:

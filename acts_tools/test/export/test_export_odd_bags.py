@@ -46,6 +46,18 @@ def test_images_that_cannot_be_exported_leave_the_samples(tmp_path: Path) -> Non
     assert len(rows_of(path)[0]) == 3
 
 
+def test_samples_that_were_recorded_twice_are_one_frame(tmp_path: Path) -> None:
+    parts = []
+    for number in range(3):
+        part = samples(number, pressed(0))
+        part.indices, part.counts = part.indices[number::3], part.counts[number::3]
+        parts.append(("/plate/samples", part))
+    once = write_bag(tmp_path / "once", *parts)
+    twice = write_bag(tmp_path / "twice", *parts[:2], *parts[1:])
+    images, others = ([row.image.tolist() for row in rows_of(path)[0]] for path in (once, twice))
+    assert images == others
+
+
 @pytest.mark.parametrize(
     ("others", "message"),
     [
