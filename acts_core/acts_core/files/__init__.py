@@ -3,13 +3,15 @@
 
 """Files that users name: read with limits, checked, and refused with the reason.
 
-In come paths; out come arrays, text, or sections of YAML with the line of each key. The same classes write files.
+In come paths; out come arrays, text, or sections of YAML with the line of each key. Files are written
+as a whole or not at all.
 """
 
 from acts_core.files.frames_file import FramesFile, load_frames, without_contact
 from acts_core.files.model_file import ModelFile
 from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
+from acts_core.files.whole_file import write_whole
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
 
 __all__ = [
@@ -31,4 +33,5 @@ __all__ = [
     "shown",
     "unpacked_bytes",
     "without_contact",
+    "write_whole",
 ]

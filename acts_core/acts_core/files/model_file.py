@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 from acts_core.files.npz_file import read_npz
+from acts_core.files.whole_file import write_whole
 
 
 @dataclass(frozen=True)
@@ -47,24 +47,9 @@ class ModelFile:
 
         What was there stays until the new file is on the disk.
         """
-        try:
-            target = path.resolve()  # a link stays one
-            if target.exists() and not target.is_file():
-                raise self.error(f"{path}: not a regular file, so nothing is written to it; give another name")
-            fresh = target.with_name(target.name + ".new")
-            try:
-                # An open file: numpy would append .npz to any other name.
-                with fresh.open("wb") as file:
-                    np.savez_compressed(file, format=self.format, **fields)
-                    # Before the rename, as a power failure could otherwise lose both files.
-                    file.flush()
-                    os.fsync(file.fileno())
-                fresh.replace(target)
-            except BaseException:
-                fresh.unlink(missing_ok=True)
-                raise
-        except OSError as error:
-            raise self.error(f"{path}: cannot be written ({error.strerror})") from error
+        # An open file: numpy would append .npz to any other name.
+        with write_whole(path, error=self.error) as file:
+            np.savez_compressed(file, format=self.format, **fields)
 
     def read(self, path: Path) -> dict[str, NDArray]:
         """The fields of a file; raises `error` when it is missing, damaged, or of another kind or format."""

@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
@@ -16,7 +14,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.files import read_npz
+from acts_core.files import read_npz, write_whole
 
 _FORMAT = "acts_baseline"
 _VERSION = 1
@@ -86,28 +84,17 @@ class Baseline:
         SettingsError
             When it cannot be written.
         """
-        temporary = path.with_name(f".{path.name}.{os.getpid()}.new")
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            with temporary.open("wb") as file:
-                np.savez(
-                    file,
-                    format=_FORMAT,
-                    version=_VERSION,
-                    baseline=self.counts,
-                    noise=self.noise_counts,
-                    valid=self.valid,
-                    time_ns=self.time_ns,
-                )
-            temporary.replace(path)
-        except OSError as error:
-            # What could not be made cannot be looked for either: a name too long, a folder that is a file.
-            with suppress(OSError):
-                temporary.unlink()
-            raise SettingsError(
-                f"{path}: the baseline cannot be saved ({error.strerror}); set calibration_file to a path that can be "
-                "written"
-            ) from error
+        hint = "the baseline cannot be saved there: set calibration_file to a path that can be written"
+        with write_whole(path, error=SettingsError, hint=hint, makes_folder=True) as file:
+            np.savez(
+                file,
+                format=_FORMAT,
+                version=_VERSION,
+                baseline=self.counts,
+                noise=self.noise_counts,
+                valid=self.valid,
+                time_ns=self.time_ns,
+            )
 
     @classmethod
     def load(cls, path: Path, rows: int, cols: int) -> Baseline:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import half_of_memory_bytes, read_npz
+from acts_core.files import half_of_memory_bytes, read_npz, write_whole
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,8 @@ def export_recording(
     if not len(chosen):
         raise RecordingError(f"{npz_path}: no frames are selected")
     counts = np.repeat(_counts(frames[chosen], npz_path), repeat, axis=0)
-    _save(out_npy, counts)
+    with write_whole(out_npy, error=RecordingError, hint="its folder must exist") as file:
+        np.save(file, counts)
     return ExportedRecording(out_npy, len(counts), counts.shape[1], counts.shape[2], rate_hz, labels)
 
 
@@ -209,14 +210,3 @@ def _counts(frames: NDArray, path: Path) -> NDArray[np.uint16]:
             f"{path}: counts from {rounded.min():g} to {rounded.max():g}; allowed are 0 to {COUNT_MAX}"
         )
     return np.ascontiguousarray(rounded, dtype=np.uint16)
-
-
-def _save(path: Path, counts: NDArray[np.uint16]) -> None:
-    temporary = path.with_name(path.name + ".new")
-    try:
-        with temporary.open("wb") as file:
-            np.save(file, counts)
-        temporary.replace(path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error

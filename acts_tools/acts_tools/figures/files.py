@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
+from acts_core.files import write_whole
 
 
 def read_stamped(path: Path, settings: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -35,15 +36,12 @@ def write_stamped(path: Path, content: Mapping[str, Any]) -> None:
     RecordingError
         When it cannot be written.
     """
-    partial = path.with_name(path.name + ".partial")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        partial.write_text(json.dumps(content, allow_nan=False) + "\n")
-        partial.replace(path)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+        text = json.dumps(content, allow_nan=False)
     except ValueError as error:
         raise RecordingError(f"{path}: a number is not finite ({error}); please report this") from error
+    with write_whole(path, error=RecordingError, makes_folder=True) as file:
+        file.write(f"{text}\n".encode())
 
 
 def write_csv(path: Path, command: str, header: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:

@@ -17,6 +17,7 @@ import pytest
 from acts_core.errors import SettingsError
 from acts_tools.cli import main
 from acts_tools.figures.differences import differences
+from acts_tools.figures.files import write_stamped
 from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.sheet import PUBLISHED, SAME, Contours, Curve, Panel, Picture, from_json, to_json
 
@@ -143,6 +144,16 @@ def test_damaged_curves_are_refused_by_file_and_line(
         (tmp_path / "curves.csv").write_text(curves)
     assert main(["figures", "4D", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]) == 1
     assert error in capsys.readouterr().err
+
+
+def test_an_interruption_leaves_no_half_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write_stamped(tmp_path / "fig4d.json", {"seed": 1})
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_page_names_the_files_that_are_read() -> None:

@@ -1,0 +1,59 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Writing a file as a whole or not at all, so that an interruption or a full disk leaves no half of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from acts_core.errors import ActsError
+
+
+@contextmanager
+def write_whole(
+    path: Path, *, error: type[ActsError], hint: str = "", makes_folder: bool = False
+) -> Iterator[BinaryIO]:
+    """Write a file, open while the context is; what was there stays until the new one is on the disk.
+
+    Parameters
+    ----------
+    path : Path
+        The file; a link stays one.
+    error : type
+        What to raise.
+    hint : str
+        What to do where it cannot be written, for the message.
+    makes_folder : bool
+        Whether to make its folder.
+
+    Raises
+    ------
+    error
+        It cannot be written, or there is something that is not a regular file.
+    """
+    target = Path(os.path.realpath(path))
+    fresh = target.with_name(f".{target.name}.{os.getpid()}.new")
+    try:
+        if target.exists() and not target.is_file():
+            raise error(f"{path}: not a regular file, so nothing is written to it; give another name")
+        if makes_folder:
+            target.parent.mkdir(parents=True, exist_ok=True)
+        with fresh.open("wb") as file:
+            yield file
+            # Before the rename, as a power failure could otherwise lose both files.
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(target)
+    except BaseException as failure:
+        # What could not be made cannot be looked for either: a name too long, a folder that is a file.
+        with suppress(OSError):
+            fresh.unlink()
+        if isinstance(failure, OSError):
+            tail = f"; {hint}" if hint else ""
+            raise error(f"{path}: cannot be written ({failure.strerror}){tail}") from failure
+        raise

@@ -1,0 +1,46 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Files that are written as a whole or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from acts_core.errors import ActsError
+from acts_core.files import write_whole
+
+
+def test_what_is_interrupted_leaves_what_was_there_and_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "made" / "text"
+    with write_whole(path, error=ActsError, makes_folder=True) as file:
+        file.write(b"first")
+
+    def interrupted() -> None:
+        with write_whole(path, error=ActsError) as file:
+            file.write(b"half of the sec")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert [one.name for one in path.parent.iterdir()] == ["text"]
+    assert path.read_bytes() == b"first"
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("none/text", r"none/text: cannot be written \(No such file or directory\); name another$"),
+        ("x" * 300, r"cannot be written \(File name too long\)"),
+        ("", "not a regular file, so nothing is written to it"),
+    ],
+)
+def test_what_cannot_be_written_is_refused(name: str, message: str, tmp_path: Path) -> None:
+    with (
+        pytest.raises(ActsError, match=message),
+        write_whole(tmp_path / name, error=ActsError, hint="name another"),
+    ):
+        pass
+    assert not list(tmp_path.iterdir())
