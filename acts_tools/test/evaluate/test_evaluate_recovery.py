@@ -4,6 +4,7 @@
 """`acts evaluate recovery`: the report on recordings whose answer is known."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -287,6 +288,33 @@ def test_files_without_what_is_needed_are_refused(tmp_path: Path, capsys: pytest
     assert "frames" in capsys.readouterr().err
     assert main(["evaluate", "recovery", "--frames", str(tmp_path / "none.npz")]) == 1
     assert "cannot be read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["recovery", "--presses", "1", "--scheme", "tracking", "uniform"],
+        ["events", "--scheme", "tracking", "uniform"],
+        ["objects"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_each_m_that_a_scheme_cannot_have_is_refused_before_any_work(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in (
+        "recovery_command.model_frames",
+        "events_command.event_recordings",
+        "objects_command.press_recordings",
+    ):
+        monkeypatch.setattr(f"acts_tools.evaluate.images.{name}", None)
+    assert main(["evaluate", *words, "--m", "63", "64", "99"]) == 1
+    refusal = capsys.readouterr().err
+    assert re.findall(r"uniform, m = (\d+): .*?; the nearest have (\d+) and (\d+)", refusal) == [
+        ("63", "56", "64"),
+        ("99", "96", "112"),
+    ]
+    assert "tracking" not in refusal
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,11 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import Any
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig
+from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_frame
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
@@ -126,13 +127,43 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
 
 
 def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> list[Task]:
-    """Tasks of every scheme with every M and every method."""
+    """Tasks of every scheme with every M and every method, of `shape`.
+
+    Raises
+    ------
+    SettingsError
+        When something is out of range. It names each M that a scheme cannot have, not only the first.
+    """
+    schemes, ms = arguments.scheme or [_SCHEME], arguments.m or [_M]
+    require_frames([(scheme, m) for scheme in schemes for m in ms], shape)
     return [
         task(arguments, scheme, m, method, shape)
-        for scheme in arguments.scheme or [_SCHEME]
-        for m in arguments.m or [_M]
+        for scheme in schemes
+        for m in ms
         for method in arguments.method or [METHOD]
     ]
+
+
+def require_frames(pairs: Iterable[tuple[str, int]], shape: tuple[int, ...] = (32, 32)) -> None:
+    """Refuse schemes and M that do not go together on an array of `shape`; all of them at once.
+
+    Raises
+    ------
+    SettingsError
+        It names the pairs, and what is allowed.
+    """
+    rows, cols = shape
+    refused: dict[str, None] = {}
+    for scheme, m in pairs:
+        try:
+            check_frame(scheme, rows, cols, m)
+        except SettingsError as error:
+            refused[f"{scheme}, {error}"] = None
+    if refused:
+        raise SettingsError(
+            f"{'; '.join(refused)}. Every scheme is scored with every M of --m: leave these out, or give each scheme a "
+            "command of its own"
+        )
 
 
 def as_report(arguments: argparse.Namespace) -> dict[str, object]:

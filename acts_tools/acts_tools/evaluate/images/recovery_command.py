@@ -49,8 +49,11 @@ def add_parser(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     if arguments.presses:
         refuse_unused(arguments, "with --presses, which are single frames", "peaks")
-    recordings = _recordings(arguments)
-    tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
+        tasks = options.tasks(arguments)
+        recordings = _pressed(arguments)
+    else:
+        recordings = _recorded(arguments)
+        tasks = options.tasks(arguments, recordings[0].frames.shape[1:])
     if arguments.frames:
         _tell_without_contact(arguments.frames, recordings, tasks[0].touch_counts)
     dictionary = options.dictionary(arguments)
@@ -66,11 +69,13 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _recordings(arguments: argparse.Namespace) -> Sequence[Recording]:
-    if arguments.presses:
-        frames = model_frames(list(OBJECTS.values()), arguments.presses, seed=arguments.seed)
-        live = np.ones(frames.shape[1:], dtype=bool)
-        return [Recording(frame[None], 1.0, live) for frame in frames][:: arguments.every]
+def _pressed(arguments: argparse.Namespace) -> Sequence[Recording]:
+    frames = model_frames(list(OBJECTS.values()), arguments.presses, seed=arguments.seed)
+    live = np.ones(frames.shape[1:], dtype=bool)
+    return [Recording(frame[None], 1.0, live) for frame in frames][:: arguments.every]
+
+
+def _recorded(arguments: argparse.Namespace) -> Sequence[Recording]:
     tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames)
     if recorded.rate_hz is None:
