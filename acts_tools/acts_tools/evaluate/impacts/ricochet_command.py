@@ -67,6 +67,13 @@ def add_parser(commands: Any) -> None:
     parser.set_defaults(evaluate=_run)
 
 
+def numbered_throw(speed_m_s: float, angle_deg: int, seed: int, number: int) -> Scene:
+    """A throw with a speed from an angle, by its number."""
+    return throw_of(
+        speed_m_s, angle_deg, np.random.default_rng([seed, round(1000 * speed_m_s), angle_deg % 360, number])
+    )
+
+
 def throw_of(speed_m_s: float, angle_deg: int, rng: np.random.Generator) -> Scene:
     """A rubber ball off a ramp: it comes down at about 30 degrees and rolls by a random share."""
     ball = ball_named("rubber")
@@ -130,8 +137,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 of_paper: list[float | None] = []
                 of_ours: list[tuple[float, float] | None] = []
                 for number in range(arguments.seeds):
-                    key = [arguments.seed, round(1000 * speed_m_s), angle_deg % 360, number]
-                    shown = throw_of(speed_m_s, angle_deg, np.random.default_rng(key))
+                    shown = numbered_throw(speed_m_s, angle_deg, arguments.seed, number)
                     if arguments.recordings is not None and number == 0:
                         name = f"throw_{speed_m_s:g}_m_s_{angle_deg % 360}_deg"
                         write_recording(arguments.recordings, name, shown.frames, SCENE_RATE_HZ)

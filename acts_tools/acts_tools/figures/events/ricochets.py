@@ -20,6 +20,7 @@ from acts_tools.evaluate.impacts.ricochet_command import (
     SPEEDS_M_S,
     PaperDirections,
     error_deg,
+    numbered_throw,
     scores_of,
     throw_of,
     told_by_us,
@@ -83,8 +84,7 @@ def _measure_directions(run: Run) -> dict[str, Any]:
             of_ours: list[tuple[float, float] | None] = []
             for speed_m_s in speeds:
                 for number in range(throws):
-                    key = [run.seed, round(1000 * speed_m_s), angle_deg % 360, number]
-                    shown = throw_of(speed_m_s, angle_deg, np.random.default_rng(key))
+                    shown = numbered_throw(speed_m_s, angle_deg, run.seed, number)
                     of_paper.append(error_deg(paper.direction_rad(shown, number + 1), angle_deg))
                     of_ours.append(told_by_us(ours, shown, number + 1, angle_deg))
                     everything[0].append(of_paper[-1])

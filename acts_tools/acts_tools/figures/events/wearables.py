@@ -12,9 +12,8 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene
 from acts_tools.evaluate.scene_frames import TOUCH_COUNTS, frames_of
-from acts_tools.evaluate.wearables.happened import Tally
 from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
-from acts_tools.evaluate.wearables.wearables_command import scene_of
+from acts_tools.evaluate.wearables.wearables_command import scene_of, tally
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import OURS, TRUTH, Curve, Panel
@@ -35,20 +34,14 @@ def _measure(run: Run) -> list[Panel]:
     places: list[float] = []
     errors_ms: list[float] = []
     figures: list[str] = []
-    with run.progress("scenes", len(names) * run.pick(_SCENES, 1)) as progress:
-        done = 0
-        for place, name in enumerate(names):
-            found, watcher = Tally(name), None
-            for number in range(run.pick(_SCENES, 1)):
-                shown = scene_of(name, run.seed, number)
-                watcher = watcher or Watcher(shown.layout, _NOISE_COUNTS)
-                if number == 0:
-                    panels += _panels(shown, watcher)
-                found.add(shown, watcher.watch(shown, _M, _NOISE_COUNTS, number + 1))
-                progress.show(done := done + 1, name)
-            places += [place + 1.0] * len(found.onset_ms)
-            errors_ms += found.onset_ms
-            figures.append(shown.kind.figure)
+    for place, name in enumerate(names, start=1):
+        panels += _panels(scene_of(name, run.seed, 0))
+        scenes = run.pick(_SCENES, 1)
+        with run.progress(name, scenes) as progress:
+            found = tally(name, scenes, _M, _NOISE_COUNTS, run.seed, progress)
+        places += [float(place)] * len(found.onset_ms)
+        errors_ms += found.onset_ms
+        figures.append(SCENES[name].figure)
     curves = [
         Curve("onset", places, errors_ms, OURS, _ONSET_COLOUR, points=True),
         *(Curve("", [0.5, len(names) + 0.5], [at_ms] * 2, TRUTH, "truth") for at_ms in (-2.0, 2.0)),
@@ -60,9 +53,9 @@ def _title(shown: WornScene) -> str:
     return f"{shown.kind.figure} {shown.kind.name.replace('_', ' ')}"
 
 
-def _panels(shown: WornScene, watcher: Watcher) -> list[Panel]:
+def _panels(shown: WornScene) -> list[Panel]:
     """Force over time with the onsets, and two images."""
-    watcher.reset()
+    watcher = Watcher(shown.layout, _NOISE_COUNTS)
     watcher.set_baseline(shown.baseline)
     geometry, response = shown.layout.geometry(), ForceResponse()
     times: list[float] = []
