@@ -97,6 +97,8 @@ def run(
     except KeyboardInterrupt:
         return 0
     finally:
+        # What a start leaves that was broken off while it compiled would be searched for garbage for seconds.
+        gc.freeze()
         gc.enable()
         _end(executor, nodes, signals)
     return 0
