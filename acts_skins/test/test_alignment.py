@@ -86,6 +86,20 @@ def test_a_skin_that_never_came_is_lost() -> None:
     assert (skin.state, skin.frame, skin.stamp_ns, skin.silent_s) == (SkinState.LOST, None, None, None)
 
 
+def test_a_skin_that_comes_is_fresh_once_it_has_contacts_of_the_common_time() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 100)
+    # Its first frame is newer than what the slower skin lets be merged: nobody knows yet what touched it then.
+    aligner.take("right", NOW + 100 * MS, "right 100", NOW + 100 * MS)
+    aligned = aligner.step(NOW + 100 * MS)
+    assert aligned.time_ns == NOW + 99 * MS
+    skin = by_name(aligned)["right"]
+    assert (skin.state, skin.frame, skin.silent_s) == (SkinState.LOST, None, None)
+    stream(aligner, "left", 100, 102)
+    skin = by_name(aligner.step(NOW + 102 * MS))["right"]
+    assert (skin.state, skin.frame) == (SkinState.FRESH, "right 100")
+
+
 def test_with_nothing_there_time_is_the_present() -> None:
     assert make().step(NOW).time_ns == NOW
 
@@ -99,6 +113,16 @@ def test_stamps_of_the_future_are_dropped_and_disturb_nobody() -> None:
     assert aligned.time_ns == NOW + 9 * MS
     assert by_name(aligned)["right"].state is SkinState.LOST
     assert (aligner.counters["right"].future, aligner.counters["right"].ahead_s) == (10, 5.0)
+
+
+def test_how_old_frames_come_is_counted_whatever_becomes_of_them() -> None:
+    aligner = make()
+    stream(aligner, "left", 0, 10)
+    assert aligner.counters["left"].late_s == pytest.approx(0.001)
+    # The clock of its machine is set back.
+    aligner.take("left", NOW - 3000 * MS, "early", NOW + 10 * MS)
+    assert aligner.counters["left"].late_s == pytest.approx(3.01)
+    assert aligner.counters["left"].out_of_order == 1
 
 
 def test_a_frame_that_comes_twice_or_late_is_dropped() -> None:
@@ -155,7 +179,7 @@ def test_whatever_comes_nothing_old_or_from_after_the_common_time_is_given(
             assert aligned.time_ns >= before_ns or resets
         before_ns = aligned.time_ns
         for skin in aligned.skins:
-            assert (skin.frame is None) == (skin.stamp_ns is None)
+            assert (skin.frame is None) == (skin.stamp_ns is None) == (skin.state is SkinState.LOST)
             if skin.stamp_ns is not None:
                 assert skin.stamp_ns <= aligned.time_ns
                 assert skin.state is not SkinState.LOST

@@ -204,6 +204,9 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
     def told(words: str) -> bool:
         return any(words in status.message for array in reports for status in array.status)
 
+    def reports_newest_only() -> None:
+        del reports[:-1]
+
     with running(tmp_path, 164) as process:
         # One kind after the other: of several in a cycle only the newest is merged.
         robot.until(
@@ -221,6 +224,13 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
         robot.until(
             lambda: told("right is lost: no contacts yet, stamps lie 100 s ahead of this clock"),
             lambda: robot.press("right", 3.0, ahead_s=100.0),
+        )
+        # What is told of a clock is of what comes now.
+        reports.clear()
+        robot.until(lambda: told("right is lost: no contacts yet") and not told("ahead of"), reports_newest_only)
+        robot.until(
+            lambda: told("right is lost: its contacts are 10 s old when they come: its clock lies behind this clock"),
+            lambda: robot.press("right", 3.0, ahead_s=-10.0),
         )
         robot.until(lambda: bool(robot.merged[-1].contacts), lambda: robot.press("left", math.nan, 2.0))
         assert [contact.number for contact in robot.merged[-1].contacts] == [2]

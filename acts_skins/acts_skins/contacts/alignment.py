@@ -76,9 +76,9 @@ class AlignedSkin(Generic[F]):
     age_s : float
         Present age of `stamp_ns` [s].
     frame : object or None
-        The newest frame at or before the common time; None where there is none, or the skin is lost.
+        The newest frame at or before the common time; None if and only if the skin is lost.
     silent_s : float or None
-        Time since the newest stamp of the skin [s]; None where there has been none.
+        Time since the newest stamp of the skin [s]; None where none of its frames was in time yet.
     """
 
     name: str
@@ -109,12 +109,15 @@ class Counters:
         Of these, dropped: stamped further ahead of the clock than `future_s`; not newer than the newest.
     ahead_s : float
         How far the last of `future` was ahead [s].
+    late_s : float
+        How old the last frame was when it was received [s]; negative where its stamp was ahead.
     """
 
     frames: int = 0
     future: int = 0
     out_of_order: int = 0
     ahead_s: float = 0.0
+    late_s: float = 0.0
 
 
 @dataclass
@@ -173,9 +176,10 @@ class Aligner(Generic[F]):
         self._look_at_clock(now_ns)
         skin, counters = self._skins[name], self.counters[name]
         counters.frames += 1
+        counters.late_s = (now_ns - stamp_ns) / _NS_PER_S
         if stamp_ns > now_ns + self._future_ns:
             counters.future += 1
-            counters.ahead_s = (stamp_ns - now_ns) / _NS_PER_S
+            counters.ahead_s = -counters.late_s
         elif skin.newest_ns is not None and stamp_ns <= skin.newest_ns:
             counters.out_of_order += 1
         else:
@@ -205,9 +209,11 @@ class Aligner(Generic[F]):
         if silent_ns > self._lost_ns:
             skin.chosen = None
             return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s)
-        state = SkinState.FRESH if silent_ns <= self._stale_ns else SkinState.STALE
         if skin.chosen is None:
-            return AlignedSkin(name, state, None, 0.0, None, silent_s)
+            # A skin has just come (again), and its first frame is newer than the common time. It is not fresh yet:
+            # fresh and without contacts would mean untouched, which nobody knows.
+            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, None)
+        state = SkinState.FRESH if silent_ns <= self._stale_ns else SkinState.STALE
         stamp_ns, frame = skin.chosen
         return AlignedSkin(name, state, stamp_ns, max(now_ns - stamp_ns, 0) / _NS_PER_S, frame, silent_s)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.messages import header_of, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
-from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, SkinState
+from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, Counters, SkinState
 from acts_skins.contacts.cycle import Cycle
 from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
 from acts_skins.contacts.placing import Placement, Touch
@@ -80,12 +80,14 @@ class SkinContactsNode(PollingNode):
         }
         self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **qos.overridable(qos.STREAM))
         self._clock = self.get_clock()
+        self._stale_after_s = settings.stale_after_s
         self._there: set[str] = set()
         self._refused: Counter[tuple[str, str]] = Counter()
         self._foreign_frames: dict[str, str] = {}
         self._aligned: Aligned[bytes] | None = None
         self._cycle = Cycle(settings.rate_hz, self._step)
         self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
+        self._received_before = {name: Counters() for name in self._placements}
         self._diagnostics = DiagnosticsReporter(
             self,
             str(skins_file.path),
@@ -162,6 +164,19 @@ class SkinContactsNode(PollingNode):
                 self._there.add(skin.name)
                 self.get_logger().info(f"skin {skin.name}: there")
 
+    def _why(self, skin: AlignedSkin[bytes], counters: Counters) -> str:
+        """Why a skin is stale or lost, by what came of it since the last report."""
+        before = self._received_before[skin.name]
+        if counters.frames > before.frames and counters.late_s > self._stale_after_s:
+            return (
+                f"its contacts are {counters.late_s:.3g} s old when they come: its clock lies behind "
+                f"{self._clock_name()}, or a machine has too little CPU"
+            )
+        silence = "no contacts yet" if skin.silent_s is None else f"no contacts for {skin.silent_s:.3g} s"
+        if counters.future > before.future:
+            return f"{silence}, stamps lie {counters.ahead_s:.3g} s ahead of {self._clock_name()}"
+        return silence
+
     def _clock_name(self) -> str:
         return "simulated time (use_sim_time)" if self.get_parameter("use_sim_time").value else "this clock"
 
@@ -187,10 +202,8 @@ class SkinContactsNode(PollingNode):
             values[f"{skin.name}.future"] = counters.future
             values[f"{skin.name}.out_of_order"] = counters.out_of_order
             if skin.state is not SkinState.FRESH:
-                ahead = (
-                    f", stamps lie {counters.ahead_s:.3g} s ahead of {self._clock_name()}" if counters.future else ""
-                )
-                troubles.append(f"{skin.name} is {_silence(skin)}{ahead}")
+                troubles.append(f"{skin.name} is {skin.state.name.lower()}: {self._why(skin, counters)}")
+            self._received_before[skin.name] = replace(counters)
         for (name, why), number in (refused - refused_before).items():
             shown = f"in the frame {self._foreign_frames[name]!r}" if why is _FOREIGN else why
             troubles.append(f"{counted(number, 'contact')} of {name} {shown} dropped")
@@ -199,9 +212,3 @@ class SkinContactsNode(PollingNode):
         if troubles:
             return WARN, "; ".join(troubles), values
         return OK, f"{counted(len(self._placements), 'skin')} in {self._base_frame}", values
-
-
-def _silence(skin: AlignedSkin[bytes]) -> str:
-    if skin.silent_s is None:
-        return "lost: no contacts yet"
-    return f"{skin.state.name.lower()}: no contacts for {skin.silent_s:.3g} s"
