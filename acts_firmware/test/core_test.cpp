@@ -119,6 +119,22 @@ void test_pace_after_lateness() {
   CHECK(!pacer.due(303599, 1000) && pacer.due(303600, 1000));
 }
 
+void test_a_shorter_period_skips_nothing() {
+  constexpr std::uint32_t kLongUs = 1'000'000;
+  constexpr std::uint32_t kShortUs = 1000;
+  acts::FramePacer pacer;
+  CHECK(pacer.due(0, kLongUs));
+  CHECK(pacer.begin(0, kLongUs) == 0);
+  pacer.end(600);
+  for (std::uint32_t now_us = 650; now_us < 700'000; now_us += 50) {
+    CHECK(!pacer.due(now_us, kLongUs));
+  }
+  CHECK(pacer.due(700'000, kShortUs));
+  CHECK(pacer.begin(700'000, kShortUs) == 0);
+  pacer.end(700'600);
+  CHECK(!pacer.due(700'999, kShortUs) && pacer.due(701'000, kShortUs));
+}
+
 void test_crc() {
   const std::string check = "123456789";
   CHECK(acts::crc32(reinterpret_cast<const std::uint8_t*>(check.data()), check.size()) == 0xCBF43926U);
@@ -304,6 +320,7 @@ int main() {
   test_frame_across_a_wrap();
   test_pace();
   test_pace_after_lateness();
+  test_a_shorter_period_skips_nothing();
   test_crc();
   test_cobs();
   test_packet_layout();

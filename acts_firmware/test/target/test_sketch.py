@@ -104,6 +104,16 @@ def test_what_holds_the_processor_up_is_counted(tmp_path: Path) -> None:
     assert 398 <= gaps.sum() <= 400
 
 
+def test_frames_that_follow_sooner_from_now_on_are_none_that_were_missed(tmp_path: Path) -> None:
+    slower = encode_configure(1, BoardSettings(frame_period_us=1_000_000)).hex()
+    faster = encode_configure(2, BoardSettings(frame_period_us=PERIOD_US)).hex()
+    run = run_sketch(["20000 open", f"40000 send {slower}", f"800000 send {faster}", "900000 end"], tmp_path)
+    frames = run.frames()
+    assert len(frames) > 100
+    assert {frame.overruns for frame in frames} == {0}
+    assert np.all(np.diff([frame.sequence for frame in frames]) == 1)
+
+
 def test_the_published_raster_sketch_can_be_chosen(tmp_path: Path) -> None:
     run = run_sketch([*PRESS, "20000 open", "200000 end"], tmp_path, [str(installed("sketch_raster_ascii"))])
     decoder = RasterDecoder(32, 32)

@@ -18,7 +18,14 @@ class FramePacer {
   // for less.
   static constexpr std::uint32_t kCatchUpUs = 250000;
 
-  bool due(std::uint32_t now_us, std::uint32_t period_us) const { return !started_ || now_us - grid_us_ >= period_us; }
+  // Ask in every round of the loop: that the board was free is known by this.
+  bool due(std::uint32_t now_us, std::uint32_t period_us) {
+    if (!started_ || now_us - grid_us_ >= period_us) {
+      return true;
+    }
+    free_us_ = now_us;
+    return false;
+  }
 
   // A frame begins. Returns how many should have begun before it but could not: something other than measuring held
   // the board up.
@@ -29,7 +36,8 @@ class FramePacer {
       return 0;
     }
     const std::uint32_t late_us = now_us - grid_us_ - period_us;
-    const std::uint32_t held_us = std::min(late_us, now_us - ended_us_);
+    // A frame is late by a shorter period, too, which has come since the last one; nothing held the board up then.
+    const std::uint32_t held_us = std::min(late_us, now_us - free_us_);
     if (held_us > kCatchUpUs && period_us > 0) {
       grid_us_ = now_us;
       return held_us / period_us;
@@ -39,12 +47,12 @@ class FramePacer {
   }
 
   // It has been measured.
-  void end(std::uint32_t now_us) { ended_us_ = now_us; }
+  void end(std::uint32_t now_us) { free_us_ = now_us; }
 
  private:
   bool started_ = false;
   std::uint32_t grid_us_ = 0;  // when the last frame should have begun
-  std::uint32_t ended_us_ = 0;
+  std::uint32_t free_us_ = 0;  // when the board last had nothing to measure
 };
 
 }  // namespace acts

@@ -45,7 +45,6 @@ UploadError ModelStore::begin(const Model& announced, std::uint32_t bytes) {
     return UploadError::kImpossible;
   }
   model_ = {};
-  ++changes_;
   announced_ = announced;
   announced_.values = nullptr;
   announced_.classes = nullptr;
@@ -86,7 +85,6 @@ UploadError ModelStore::end() {
     if (model_.kind == ModelKind::kObjectLibrary) {
       model_.classes = reinterpret_cast<const std::uint8_t*>(memory_.data()) + value_bytes(model_);
     }
-    ++changes_;
   }
   return ended_;
 }

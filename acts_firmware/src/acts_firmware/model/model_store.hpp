@@ -31,8 +31,7 @@ class ModelStore {
   bool uploading() const { return uploading_; }
   std::uint32_t received() const { return received_; }  // the offset that add() wants next
 
-  const Model& model() const { return model_; }       // the one in force
-  std::uint32_t changes() const { return changes_; }  // counts up whenever model() changes
+  const Model& model() const { return model_; }  // the one in force
 
  private:
   UploadError check() const;
@@ -45,7 +44,6 @@ class ModelStore {
   std::uint32_t bytes_ = 0;
   std::uint32_t received_ = 0;
   std::uint32_t crc_ = 0;
-  std::uint32_t changes_ = 0;
 };
 
 }  // namespace acts
