@@ -203,6 +203,11 @@ def _skin(name: str, section: Section) -> Skin:
     port = _port(section)
     if port is not None and "replay" in section.values:
         raise section.error("port and replay: samples come either from a board or from a recording", "replay")
+    if "replay" in section.values and "recording" in section.values:
+        raise section.error(
+            "replay and recording: a recording is played by a simulated board, and a replay takes the place of a board",
+            "recording",
+        )
     rate_hz = section.number("recording_rate_hz", 1000.0, highest=1_000_000)
     if "pose" not in section.values:
         raise section.error("pose is missing: parent, position_m and rpy_rad or quaternion_xyzw of the skin's frame")
@@ -302,6 +307,9 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
 def _device(skin: Skin) -> str:
     """What a port is told from others by: symbolic links, such as those in /dev/serial/by-id, are resolved."""
     assert skin.port is not None
+    if skin.port.startswith(SERIAL_PREFIX):
+        # Blanks around the number do not matter to the driver either.
+        return SERIAL_PREFIX + skin.port.removeprefix(SERIAL_PREFIX).strip()
     if not skin.port.startswith("/"):
         return skin.port
     try:

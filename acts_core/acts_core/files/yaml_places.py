@@ -25,6 +25,8 @@ from acts_core.yaml_values import YamlLoader
 _MAX_DEPTH = 5
 # So much is parsed in a few seconds; a file of a hundred skins has a tenth of it.
 _BYTES_MAX = 1 << 18
+# A whole turn and a rounding of it. More is most likely meant in degrees.
+_LARGEST_ANGLE_RAD = 2 * math.pi + 1e-3
 
 Keys = tuple[object, ...]
 
@@ -86,8 +88,10 @@ class Section:
         value = self.values.get(key)
         if value is None:
             return default
-        if not isinstance(value, str) or not value.strip():
+        if not isinstance(value, str):
             raise self.error(f"{key} = {shown(value)}: allowed is text; put it in quotes", key)
+        if not value.strip():
+            raise self.error(f"{key} = {shown(value)}: allowed is text that is not empty; or leave {key} out", key)
         return value.strip()
 
     def one_of(self, key: str, known: Iterable[str]) -> str:
@@ -160,6 +164,12 @@ class Section:
             raise self.error("rpy_rad and quaternion_xyzw: give one of them", "quaternion_xyzw")
         position_m: Vector = self.numbers("position_m", (0.0, 0.0, 0.0))  # type: ignore[assignment]
         rpy_rad: Vector = self.numbers("rpy_rad", (0.0, 0.0, 0.0))  # type: ignore[assignment]
+        if any(abs(angle) > _LARGEST_ANGLE_RAD for angle in rpy_rad):
+            raise self.error(
+                f"rpy_rad = {shown(list(rpy_rad))}: allowed are angles up to a whole turn, -6.2832 to 6.2832; they are "
+                "in radians, and 90 degrees are 1.5708",
+                "rpy_rad",
+            )
         quaternion: Quaternion = self.numbers("quaternion_xyzw", (0.0, 0.0, 0.0, 1.0))  # type: ignore[assignment]
         try:
             if "quaternion_xyzw" in self.values:
