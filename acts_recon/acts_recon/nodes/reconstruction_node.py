@@ -60,7 +60,7 @@ class ReconstructionNode(Node):
     and where somebody listens images (see `ImagesPublisher`), ``contacts`` and ``view/contacts`` (acts_msgs/Contacts),
     as far as the parameters offer them ``impacts`` (acts_msgs/Impact), ``spectra`` (acts_msgs/Spectrum) and
     ``outlines`` (acts_msgs/Outline), with a layout of several patches, or of one on a link, ``regions``
-    (acts_msgs/RegionContacts), and, with an object library, ``object`` (acts_msgs/ObjectClass).
+    (acts_msgs/RegionContacts), and, with an object library, ``object`` and ``view/object`` (acts_msgs/ObjectClass).
 
     Parameters
     ----------

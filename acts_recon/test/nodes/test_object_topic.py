@@ -1,10 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Topic object over real DDS, by both methods; ROS_DOMAIN_IDs 45 and 125 to 127."""
+"""Topics object and view/object over real DDS, by both methods; ROS_DOMAIN_IDs 45 and 125 to 127."""
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from acts_msgs.msg import ObjectClass
 from acts_recon.fusion import FusionEstimator
 from acts_recon.nodes.object_publisher import ObjectPublisher
 from acts_recon.objects import (
+    Classification,
     Classifier,
     ClassifierConfig,
     ImageClassifier,
@@ -125,6 +127,31 @@ def test_the_topic_keeps_its_rate(make_bench: Callable[..., Bench], library_path
     bench.contact(19)
     bench.until(lambda: bool(bench.received["object"]))
     assert [(message.sequence, message.name) for message in bench.received["object"]] == [(0, "low")]
+
+
+def test_for_viewers_no_more_frames_are_classified_than_they_are_told_of(
+    make_bench: Callable[..., Bench], library_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(127, object_library=library_path, image_rate_hz=0.1)
+    bench.listen(ObjectClass, "view/object", qos.VIEW)
+    objects = publisher_of(bench.node, ObjectPublisher)
+    bench.until(lambda: bool(objects.viewed))
+    steps, step = [0], objects._recogniser.step
+
+    def counted(*samples: Any) -> Classification:
+        steps[0] += 1
+        return step(*samples)
+
+    monkeypatch.setattr(objects._recogniser, "step", counted)
+    # Where the frame at which they are due is none that is classified, they are told of the next one.
+    allowed = iter([False, True])
+    monkeypatch.setattr(objects._limit, "due", lambda _: next(allowed))
+    everything, pressed = np.arange(1024), bump(GEOMETRY, *PLACES["low"]).ravel()
+    for k in range(20):
+        bench.send(k, everything, pressed, **timed(20 * k))
+    bench.until(lambda: bool(bench.received["view/object"]))
+    assert [(message.sequence, message.name) for message in bench.received["view/object"]] == [(1, "low")]
+    assert steps == [1]
 
 
 @pytest.mark.parametrize("method", ["fusion", "per_frame"])
