@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a robot is about, out of its messages, as the page is told: a ball that is balanced, a hand and its joints.
+"""What nodes say besides touch, as the page is told: a ball that is balanced, a hand and its joints, a known object.
 
 Anybody in the domain can send such messages: texts and lists are cut, and what is no number is left out.
 """
@@ -13,13 +13,16 @@ from typing import Any
 
 from sensor_msgs.msg import JointState
 
-from acts_msgs.msg import BalanceStatus, BallReference, BallState, HandStatus
+from acts_msgs.msg import BalanceStatus, BallReference, BallState, HandStatus, ObjectClass
 
 SHOWN = 64
 """Entries of a list that are shown at most: every page is sent all of them."""
 
 TEXT = 200
 """Letters of a text that are shown at most."""
+
+_NEAREST = 3
+_LIBRARY_MAX = 1000
 
 
 def _names(kind: type) -> dict[int, str]:
@@ -67,6 +70,24 @@ def balance_state(message: BalanceStatus) -> dict[str, Any]:
         "reason": message.reason[:TEXT],
         "tilt_commanded": _pair(message.tilt_commanded),
         "tilt_measured": _pair(message.tilt_measured),
+    }
+
+
+def known_object(message: ObjectClass) -> dict[str, Any]:
+    """The object that presses, by number and name, how sure that is, and the residuals of those that fit best.
+
+    The number is None where nothing is pressed, the name empty where only the library has it, and the confidence None
+    where there is nothing to compare with.
+    """
+    listed = enumerate(message.residuals[:_LIBRARY_MAX])
+    residuals = [(residual, number) for number, residual in listed if math.isfinite(residual)]
+    is_touched = message.class_number != ObjectClass.NO_OBJECT
+    is_compared = is_touched and len(residuals) > 1 and math.isfinite(message.confidence)
+    return {
+        "number": message.class_number if is_touched else None,
+        "name": message.name[:TEXT],
+        "confidence": message.confidence if is_compared else None,
+        "nearest": [[number, residual] for residual, number in sorted(residuals)[:_NEAREST]] if is_touched else [],
     }
 
 

@@ -8,15 +8,24 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import Image, JointState
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import PacketError
-from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contacts, HandStatus, RegionContacts
+from acts_msgs.msg import (
+    BalanceStatus,
+    BallReference,
+    BallState,
+    Contacts,
+    HandStatus,
+    ObjectClass,
+    RegionContacts,
+)
 from acts_ros import qos
 from acts_ros.messages import (
     ContactsFields,
@@ -37,20 +46,38 @@ from acts_view.nodes.robot_states import (
     ball_reference,
     hand_state,
     joint_angles,
+    known_object,
 )
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
 
 R = TypeVar("R")
 
 _PIXELS = {"mono16": "u2", "mono8": "u1", "32FC1": "f4"}
-_ROBOT: dict[str, tuple[type, Callable[[Any], dict[str, Any]], str]] = {
-    "hand/status": (HandStatus, hand_state, "hand"),
-    "joint_states": (JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
-    "ball/state": (BallState, ball_place, "ball"),
-    "ball/reference": (BallReference, ball_reference, "ball"),
-    "ball/status": (BalanceStatus, balance_state, "ball"),
+
+
+class _Told(NamedTuple):
+    """Of a topic on which a node says something besides touch.
+
+    `kind` is its type, `read` what is taken of a message, `place` where in `Frame` that goes.
+    """
+
+    kind: type
+    read: Callable[[Any], dict[str, Any]]
+    place: str
+    profile: QoSProfile = qos.STATE
+
+
+_TOLD = {
+    "hand/status": _Told(HandStatus, hand_state, "hand"),
+    "joint_states": _Told(JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
+    "ball/state": _Told(BallState, ball_place, "ball"),
+    "ball/reference": _Told(BallReference, ball_reference, "ball"),
+    "ball/status": _Told(BalanceStatus, balance_state, "ball"),
+    # Of both the latter, which knows the names.
+    "board_object": _Told(ObjectClass, known_object, "object", qos.STREAM),
+    "object": _Told(ObjectClass, known_object, "object"),
 }
-"""Of each topic that says what a robot does: its type, what is taken of a message, and where in `Frame` it goes."""
+
 # All of them come several times a second; as of the diagnostics on the page.
 _STALE_S = 3.0
 
@@ -73,15 +100,16 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
-        # Of each topic that says what a robot does, what it said last, and when by the monotonic clock [s].
-        self._robot: dict[str, tuple[float, dict[str, Any]]] = {}
-        self._is_robot_gone = False
+        # Of each topic of `_TOLD`, what was said last, and when by the monotonic clock [s].
+        self._told: dict[str, tuple[float, dict[str, Any]]] = {}
+        self._is_teller_gone = False
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
         )
-        for topic, (kind, _, _) in _ROBOT.items():
-            self._polled[topic] = node.create_polled_subscription(kind, f"{namespace}/{topic}", qos.STATE, depth=1)
+        for topic, (kind, _, _, profile) in _TOLD.items():
+            if topic != "object":
+                self._polled[topic] = node.create_polled_subscription(kind, f"{namespace}/{topic}", profile, depth=1)
         self._outlines = OutlineTopic(node, namespace) if with_outlines else None
         self.look()
 
@@ -92,15 +120,16 @@ class SkinTopics:
         self._choose("confidence", Image)
         self._choose("age", Image)
         self._choose("contacts", Contacts)
+        self._choose("object", ObjectClass)
         # Each question whether something has come takes the process some 30 us; most skins are no hand and no plate.
         self._silent = {
             what for what, polled in self._polled.items() if not self._node.count_publishers(polled.topic_name)
         }
         # What a controller has said is no longer so when it is gone or hangs; another one may go on.
         since_s = time.monotonic() - _STALE_S
-        for topic in [topic for topic, (told_s, _) in self._robot.items() if told_s < since_s or topic in self._silent]:
-            del self._robot[topic]
-            self._is_robot_gone = True
+        for topic in [topic for topic, (told_s, _) in self._told.items() if told_s < since_s or topic in self._silent]:
+            del self._told[topic]
+            self._is_teller_gone = True
 
     def close(self) -> None:
         """Subscribe no longer."""
@@ -116,13 +145,13 @@ class SkinTopics:
         samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
         contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
-        robot = {topic: message for topic in _ROBOT if (message := self._newest(topic)) is not None}
-        nothing_came = not robot and all(one is None for one in (*images.values(), contacts, regions))
-        if not samples and nothing_came and not self._is_robot_gone:
+        told = {topic: message for topic in _TOLD if (message := self._newest(topic)) is not None}
+        nothing_came = not told and all(one is None for one in (*images.values(), contacts, regions))
+        if not samples and nothing_came and not self._is_teller_gone:
             return None
-        self._is_robot_gone = False
+        self._is_teller_gone = False
         now_s = time.monotonic()
-        self._robot |= {topic: (now_s, _ROBOT[topic][1](message)) for topic, message in robot.items()}
+        self._told |= {topic: (now_s, _TOLD[topic].read(message)) for topic, message in told.items()}
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
@@ -138,18 +167,19 @@ class SkinTopics:
             outlines=() if self._outlines is None else self._outlines.take(),
             touch=touch if samples else old.touch,
             regions=old.regions if regions is None else _regions(regions),
-            hand=self._told("hand"),
-            ball=self._told("ball"),
+            hand=self._known("hand"),
+            ball=self._known("ball"),
+            object=self._known("object"),
         )
         return self._frame, samples
 
-    def _told(self, place: str) -> dict[str, Any]:
-        """What is known of a hand or a ball."""
+    def _known(self, place: str) -> dict[str, Any]:
+        """What is known of a hand, a ball or an object."""
         return {
             key: value
-            for topic, (_, told) in self._robot.items()
-            if _ROBOT[topic][2] == place
-            for key, value in told.items()
+            for topic in _TOLD
+            if _TOLD[topic].place == place and topic in self._told
+            for key, value in self._told[topic][1].items()
         }
 
     def _choose(self, what: str, kind: type) -> None:
@@ -162,7 +192,8 @@ class SkinTopics:
             return
         if present is not None:
             self._node.destroy_polled_subscription(present)
-        self._polled[what] = self._node.create_raw_polled_subscription(kind, topic, profile, depth=1)
+        create = self._node.create_polled_subscription if what in _TOLD else self._node.create_raw_polled_subscription
+        self._polled[what] = create(kind, topic, profile, depth=1)
 
     def _newest(self, what: str) -> Any:
         """The newest message of a topic; None where none has come, or, at the last look, nobody published it."""

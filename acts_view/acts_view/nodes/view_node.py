@@ -62,9 +62,9 @@ class ViewNode(PollingNode):
     """Shows skins on a page, see `ViewServer`.
 
     Subscribes of every skin ``regions``, ``hand/status``, ``joint_states``, ``ball/state``, ``ball/reference``,
-    ``ball/status``, and ``view/age``, ``view/image_raw``, ``view/confidence``, ``view/contacts`` and
-    ``view/contact_series``, or where they are not, those without ``view/`` and ``contact``; with `outlines` also
-    ``outlines``; and ``/diagnostics``. Asks the node ``reconstruction`` beside them for its parameters.
+    ``ball/status``, ``board_object``, and ``view/age``, ``view/image_raw``, ``view/confidence``, ``view/contacts``,
+    ``view/object`` and ``view/contact_series``, or where they are not, those without ``view/`` and ``contact``; with
+    `outlines` also ``outlines``; and ``/diagnostics``. Asks the node ``reconstruction`` beside them for its parameters.
     """
 
     def __init__(self, **options: Any) -> None:

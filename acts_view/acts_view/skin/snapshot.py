@@ -75,6 +75,8 @@ class Frame:
         State of a hand in words, and the angles of its joints; empty for none.
     ball : mapping
         Ball on the skin, where it should be, and the tilt of the plate; empty for none.
+    object : mapping
+        Which known object presses; empty where nobody classifies.
     """
 
     stamp_s: float = 0.0
@@ -88,6 +90,7 @@ class Frame:
     regions: Sequence[RegionState] = ()
     hand: dict[str, Any] = field(default_factory=dict)
     ball: dict[str, Any] = field(default_factory=dict)
+    object: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -260,5 +263,6 @@ def encode_frame(
         "regions": [[region.name, region.force_n, region.slip_m, region.is_slipping] for region in frame.regions],
         "hand": frame.hand,
         "ball": frame.ball,
+        "object": frame.object,
     }
     return encode(header, arrays)

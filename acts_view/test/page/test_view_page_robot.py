@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the page tells of a hand and a ball, in a real browser: figures and names as a person would write them."""
+"""What the page tells of a hand, a ball and a known object, in a real browser: as a person would write it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from view_browser import DEADLINE_MS, expect, needs_browser
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 pytestmark = [needs_browser, pytest.mark.slow]
 
 SMALL = -1e-6
+NEAREST = [[2, 0.25], [7, 0.5], [29, 0.75]]
+SPOON = {"number": 2, "name": "wooden_spoon", "confidence": 0.5, "nearest": NEAREST}
+UNTOUCHED: dict[str, Any] = {"number": None, "name": "", "confidence": None, "nearest": []}
 
 
 def centred(frame: Frame) -> Frame:
@@ -92,3 +95,57 @@ def test_a_region_has_room_for_its_name(
     assert all(row["isBeside"] for row in rows)
     # What is cut can be read all the same.
     assert page.get_attribute(".regions li:last-child .name", "title") == "a region of a layout of ones own"
+
+
+def test_a_known_object_is_named_while_somebody_classifies(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    told: dict[str, Any] = {}
+    page = open_page(play(change=lambda frame: replace(frame, object=told)))
+    card, found = page.locator(".object"), page.locator(".object .found")
+    rows = card.locator("tbody tr")
+    expect(card).to_be_hidden()
+    told = SPOON
+    expect(found).to_have_text("wooden spoon (confidence 0.50)")
+    expect(rows).to_have_text(["wooden spoon25", "no. 750", "no. 2975"])
+    expect(card).to_contain_text("it is no probability")
+    # Another one, which nearly fits: of both it knows the names by now.
+    told = {"number": 7, "name": "cup", "confidence": 0.125, "nearest": [[7, 0.35], [2, 0.4]]}
+    expect(found).to_have_text("not sure: cup or wooden spoon (confidence 0.13)")
+    told = {**SPOON, "confidence": None, "nearest": NEAREST[:1]}
+    expect(found).to_have_text("wooden spoon; there is no other to compare with")
+    told = UNTOUCHED
+    expect(found).to_have_text("nothing presses")
+    expect(rows).to_have_count(0)
+    told = {}
+    expect(card).to_be_hidden()
+    # Whoever classifies next may have other objects.
+    told = {**SPOON, "number": 29, "name": "", "nearest": [[29, 0.1], [2, 0.9]]}
+    expect(found).to_have_text("no. 29 (confidence 0.50)")
+    expect(rows).to_have_text(["no. 2910", "no. 290"])
+
+
+@pytest.mark.parametrize("width", [280, 360, 1280])
+def test_a_long_name_stays_in_its_card(play: Callable[..., Player], open_page: Callable[..., Page], width: int) -> None:
+    told = {**SPOON, "name": "n" * 200}
+    page = open_page(play(change=lambda frame: replace(frame, object=told)), width)
+    expect(page.locator(".object .found")).to_contain_text("nnn")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+    inside = page.evaluate(
+        """() => {
+          const right = document.querySelector(".facts").getBoundingClientRect().right;
+          const ends = [...document.querySelectorAll(".object *")].map((one) => one.getBoundingClientRect().right);
+          return ends.every((end) => end <= right + 1);
+        }"""
+    )
+    assert inside
+
+
+def test_the_object_of_a_silent_skin_is_dimmed_with_its_figures(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play(change=lambda frame: replace(frame, object=SPOON))
+    page = open_page(player)
+    player.is_silent = True
+    expect(page.locator(".skin .pill")).to_contain_text("silent")
+    expect(page.locator(".facts:has(.object)")).to_have_css("opacity", "0.6")

@@ -1,11 +1,12 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// One skin: its picture, its numbers, its contacts, its plots and, of a hand, its regions.
+// One skin: its picture, its numbers, its contacts, its plots and, where there are such, a known object, a ball, a hand.
 
 import { Ball } from "./ball.js";
 import { gradient } from "./colours.js";
 import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
+import { Objects } from "./objects.js";
 import { Plots } from "./plots.js";
 import { Regions } from "./regions.js";
 import { saveContacts, savePicture, savePlots, saveTaxels } from "./saving.js";
@@ -45,6 +46,7 @@ const MARKUP = `
         <tbody>${`<tr>${"<td></td>".repeat(5)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
       </table>
       <p class="more"></p>
+      <section class="object" hidden></section>
     </div>
     <div class="plots"></div>
     <section class="ball robot" hidden></section>
@@ -69,6 +71,7 @@ export class Panel {
     this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${name}; arrow keys move from taxel to taxel`);
     this.view = new SkinView(this.find(".canvases"), (text) => { this.find(".pointed").textContent = text; });
     this.plots = new Plots(this.find(".plots"), this.history, onHold);
+    this.objects = new Objects(this.find(".object"));
     this.ball = new Ball(this.find(".ball"));
     this.regions = new Regions(this.find(".regions"));
     for (const button of this.element.querySelectorAll("[data-save]")) button.onclick = () => this.#save(button.dataset.save);
@@ -173,6 +176,7 @@ export class Panel {
     this.numbers_ms = now_ms;
     this.#showNumbers();
     this.#showContacts();
+    this.objects.show(this.message.object);
     this.ball.show(this.message.ball);
     this.regions.show(this.message.regions, this.message.hand);
   }
