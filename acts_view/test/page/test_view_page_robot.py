@@ -111,9 +111,12 @@ def test_a_known_object_is_named_while_somebody_classifies(
     expect(card).to_contain_text("it is no probability")
     # Another one, which nearly fits: of both it knows the names by now.
     told = {"number": 7, "name": "cup", "confidence": 0.125, "nearest": [[7, 0.35], [2, 0.4]]}
-    expect(found).to_have_text("not sure: cup or wooden spoon (confidence 0.13)")
+    expect(found).to_have_text("not sure: cup, wooden spoon or another (confidence 0.13)")
     told = {**SPOON, "confidence": None, "nearest": NEAREST[:1]}
     expect(found).to_have_text("wooden spoon; there is no other to compare with")
+    told = {**SPOON, "nearest": [[2, 0.95], [7, 1.25]]}
+    expect(found).to_have_text("nothing known")
+    expect(rows).to_have_text(["wooden spoon95", "cup100"])
     told = UNTOUCHED
     expect(found).to_have_text("nothing presses")
     expect(rows).to_have_count(0)

@@ -5,6 +5,7 @@
 
 import { setText } from "../words.js";
 
+const FOREIGN = 0.9; // what leaves so much unexplained is none of the known objects
 const UNDECIDED = 0.2; // below it the paper's classifier is mostly wrong, and ours is right four times of five
 
 export class Objects {
@@ -24,14 +25,15 @@ export class Objects {
     if (number !== null && name) this.names.set(number, name);
     setText(this.element.querySelector(".found"), this.#found(number, confidence, nearest));
     for (const part of ["table", ".note"]) this.element.querySelector(part).hidden = number === null;
-    const rows = nearest.map(([of, residual]) => [this.#named(of), (100 * residual).toFixed(0)]);
+    const rows = nearest.map(([of, residual]) => [this.#named(of), (100 * Math.min(residual, 1)).toFixed(0)]);
     this.element.querySelector("tbody").replaceChildren(...rows.map(row));
   }
 
   #found(number, confidence, nearest) {
     if (number === null) return "nothing presses";
+    if (nearest.length && nearest[0][1] > FOREIGN) return "nothing known";
     if (confidence === null) return `${this.#named(number)}; there is no other to compare with`;
-    if (confidence < UNDECIDED) return `not sure: ${nearest.slice(0, 2).map(([of]) => this.#named(of)).join(" or ")} (confidence ${confidence.toFixed(2)})`;
+    if (confidence < UNDECIDED) return `not sure: ${nearest.slice(0, 2).map(([of]) => this.#named(of)).join(", ")} or another (confidence ${confidence.toFixed(2)})`;
     return `${this.#named(number)} (confidence ${confidence.toFixed(2)})`;
   }
 
