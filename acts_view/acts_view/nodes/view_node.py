@@ -24,10 +24,11 @@ from rclpy.task import Future
 from acts_core.errors import ArrayError
 from acts_core.words import counted
 from acts_ros.clocks import steady_timer
-from acts_ros.diagnostics import OK, DiagnosticsReporter, Report
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.log import log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
+from acts_ros.publishers import OnlyPublishers
 from acts_view.nodes.control import Control
 from acts_view.nodes.skin_topics import SkinTopics
 from acts_view.recording.recording import Feed, Recording
@@ -53,6 +54,7 @@ _TEXT = 500
 _ONLY_SHOWS = "This page only shows. With acts view --control it can also record, tare, and start and stop motion."
 _CONTACT_TYPE = "acts_msgs/msg/Contact"
 _CONTACT_TOPIC = "/contact"
+_ONLY_TOPICS = ("samples", "contact")
 # As SkinShape has them.
 _FORCE_PARAMETERS = ("force_full_scale_counts", "force_dead_n", "force_half_n", "force_response")
 _SHAPE_PARAMETERS = ("layout", "rows", "cols", "pitch_m", "row_pitch_m", "touch_counts", *_FORCE_PARAMETERS)
@@ -76,6 +78,7 @@ class ViewNode(PollingNode):
         self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
         self._names = list(settings.namespaces)
         self._heard: dict[str, tuple[float, dict[str, Any]]] = {}
+        self._only: dict[str, OnlyPublishers] = {}
         self._pages = 0
         self._recording = Recording(
             Path(settings.record_dir),
@@ -159,8 +162,9 @@ class ViewNode(PollingNode):
                     self._skins[name] = made
             self._ask_shape(name)
         told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
+        diagnostics = [*self._mixtures(), *self._statuses()]
         self._server.show_status(
-            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": self._statuses(), **told}
+            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": diagnostics, **told}
         )
 
     def _leave(self) -> None:
@@ -212,6 +216,17 @@ class ViewNode(PollingNode):
         now_s = time.monotonic()
         return [
             {"name": name, "age_s": now_s - heard_s, **shown} for name, (heard_s, shown) in sorted(self._heard.items())
+        ]
+
+    def _mixtures(self) -> list[dict[str, Any]]:
+        """Of skins that several nodes publish, so that the page shows a mixture, these nodes."""
+        for name in self._names:
+            self._only.setdefault(name, OnlyPublishers(self, [f"{name}/{topic}" for topic in _ONLY_TOPICS]))
+        problems = {name: only.problem() for name, only in self._only.items()}
+        return [
+            {"name": name or "/", "level": WARN, "message": problem[:_TEXT], "age_s": 0.0, "values": []}
+            for name, problem in problems.items()
+            if problem
         ]
 
     def _forget(self) -> None:

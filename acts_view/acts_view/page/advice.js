@@ -4,6 +4,7 @@
 // What to do about what a node complains of: by words in its sentence, the first that fits.
 
 const ADVICE = [
+  [/end all but one/i, "What is shown is a mixture of what these nodes say. A second skin needs a namespace of its own, and a recording is played without its drivers."],
   [/no board|no frames from|is closed|no such port|cannot open/i, "Is the board plugged in and powered? acts doctor tells which ports there are, and whether you may open them."],
   [/parameters rows and cols/i, "The array has another size than the parameters rows and cols say: give the launch file that of the array."],
   [/crc|malformed|damaged/i, "Bytes are damaged on the way: try another cable or port, without a hub; see docs/faults.md."],

@@ -1,0 +1,46 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Several nodes that publish the touch of one skin, as pages are told of them; ROS_DOMAIN_ID 204."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from rclpy.node import Node
+from view_node_bench import Bench
+
+from acts_msgs.msg import Contact, TactileSamples
+from acts_ros import qos
+
+pytestmark = pytest.mark.slow
+
+DOMAIN_ID = 204
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    made = Bench(DOMAIN_ID)
+    yield made
+    made.close()
+
+
+def test_a_second_publisher_of_a_skin_is_named_until_it_is_gone(bench: Bench) -> None:
+    player = Node("player", context=bench.skin.context)
+    contact = player.create_publisher(Contact, "/hand/contact", qos.STREAM)
+    # One alone is as it should be.
+    player.create_publisher(TactileSamples, "/hand/samples", qos.STREAM)
+
+    def told() -> list[dict[str, Any]]:
+        return [one for one in bench.headers.get("status", {}).get("diagnostics", []) if one["name"] == "/hand"]
+
+    with bench.connect() as client:
+        bench.until(lambda: bool(told()), client, lambda: bench.press(1.0))
+        (one,) = told()
+        assert one["level"] == 1
+        assert one["message"] == "/hand/contact has 2 publishers (/hand/skin, /player): end all but one"
+        player.destroy_publisher(contact)
+        bench.until(lambda: not told(), client, lambda: bench.press(1.0))
+    player.destroy_node()
