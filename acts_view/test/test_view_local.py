@@ -309,6 +309,17 @@ def test_what_does_not_fit_is_counted_and_a_baseline_subtracted() -> None:
     skin.take([(SampleFrame(0, 0, 0, Scheme.RASTER, 4, 4, 0, small, small), 0)], None)
     assert (skin.rejected, skin.newest()) == (1, None)
     assert "4 x 4" in skin.problem
+    whole = np.arange(64, dtype=np.uint16)
+    skin.take([(SampleFrame(1, 0, 0, Scheme.RASTER, 8, 8, 0, whole, whole), 10)], None)
+    taken = skin.newest()
+    assert taken is not None
+    assert taken[0].image is not None
+    # What cannot be shown takes the place of what was, once.
+    skin.take([(SampleFrame(2, 0, 0, Scheme.RASTER, 4, 4, 0, small, small), 20)], None)
+    taken = skin.newest()
+    assert taken is not None
+    assert (taken[0].image, taken[0].touch, taken[1]) == (None, None, [])
+    assert skin.newest() is None
 
 
 class Shown:

@@ -47,6 +47,8 @@ class LocalSkin:
         self._samples: list[Sample] = []
         self._stamp_ns = 0
         self._duration_s = 0.0
+        self._is_fitting = True
+        self._is_blank = True
         self.rejected = 0
         """Frames that did not fit."""
         self.problem = ""
@@ -80,15 +82,23 @@ class LocalSkin:
                 try:
                     self._step(frame, stamp_ns, latency_ms)
                 except ArrayError as error:
+                    self._is_fitting = False
                     self.rejected += 1
                     self.problem = str(error)
 
     def newest(self) -> tuple[Frame, list[Sample]] | None:
-        """What is newest, and the samples since the last call; None without any. From any thread."""
+        """What is newest, and the samples since the last call; None without any. From any thread.
+
+        Where the last frame did not fit, and none before it is new, the newest is once that there is no picture.
+        """
         with self._lock:
             samples, self._samples = self._samples, []
             if not samples:
-                return None
+                if self._is_fitting or self._is_blank:
+                    return None
+                self._is_blank = True
+                return Frame(stamp_s=self._stamp_ns * 1e-9), []
+            self._is_blank = False
             found = self._recovery
             recovery, contact = found.recovery, found.contact
             confidence, age_s = recovery.confidence(), recovery.age_s
@@ -132,6 +142,7 @@ class LocalSkin:
 
     def _step(self, frame: SampleFrame, stamp_ns: int, latency_ms: float) -> None:
         lost = self._recovery.step(frame, stamp_ns)
+        self._is_fitting = True
         self._stamp_ns = stamp_ns
         self._duration_s = frame.duration_us * 1e-6
         if len(self._samples) < _SAMPLES_MAX:

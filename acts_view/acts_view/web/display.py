@@ -41,7 +41,8 @@ class _Skin:
             self.history.add(*sample)
         # Else only what controls the skin has said something.
         if samples or frame.image is not self.frame.image:
-            self._heard_s = time.monotonic()
+            # A picture that is taken away is as if nothing had come.
+            self._heard_s = time.monotonic() if samples or frame.image is not None else None
         self.frame = frame
         self.frames += 1
 

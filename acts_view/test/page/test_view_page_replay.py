@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,8 @@ from test_view_local import Shown, until, write_frames
 from view_browser import expect, needs_browser
 
 from acts_core.errors import ViewRequestError
-from acts_view.local.sources import open_recorded
+from acts_core.frames import SampleFrame, Scheme
+from acts_view.local.sources import RecordedSource, open_recorded
 from acts_view.web.requests import Request
 
 if TYPE_CHECKING:
@@ -56,6 +57,36 @@ def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_
         page.keyboard.press(" ")
         expect(button).to_have_text("Hold")
         page.wait_for_selector(".skin .pill[data-state=live]")
+    finally:
+        shown.close()
+
+
+class Resized:
+    """Two seconds of frames at 100 Hz with a press, the second one of an array of another size."""
+
+    length_us = 1_990_000
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        for number in range(200):
+            side = 32 if number < 100 else 16
+            indices = np.arange(side**2, dtype=np.uint16)
+            counts = np.full(side**2, 800, np.uint16)
+            if 10_000 * number >= from_us:
+                yield SampleFrame(number, 10_000 * number, 100, Scheme.RASTER, side, side, 0, indices, counts)
+
+
+def test_where_the_size_of_the_array_changes_no_picture_of_before_is_shown(open_page: Callable[..., Page]) -> None:
+    shown = Shown(RecordedSource("resized", Resized()), "/plate")
+    try:
+        page = open_page(shown, is_live=False)
+        peak, pill, slider = (page.locator(one) for one in ("[data-number=peak]", ".skin .pill", "#replay input"))
+        # It plays into the second half, and is held at its end.
+        expect(page.locator("#replay button")).to_have_text("Play")
+        expect(page.locator("#diagnostics")).to_contain_text("left out: frame of 16 x 16 taxels")
+        for time_s, words, state in (("1.9", "–", "waiting"), ("0.5", "800", "paused"), ("1.2", "–", "waiting")):
+            slider.fill(time_s)
+            expect(peak).to_have_text(words)
+            expect(pill).to_have_text(state)
     finally:
         shown.close()
 
