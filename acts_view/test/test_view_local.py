@@ -314,6 +314,9 @@ def test_what_does_not_fit_is_counted_and_a_baseline_subtracted() -> None:
     taken = skin.newest()
     assert taken is not None
     assert taken[0].image is not None
+    # What comes twice changes nothing.
+    skin.take([(SampleFrame(1, 0, 0, Scheme.RASTER, 8, 8, 0, whole, whole), 10)], None)
+    assert (skin.rejected, skin.newest()) == (2, None)
     # What cannot be shown takes the place of what was, once.
     skin.take([(SampleFrame(2, 0, 0, Scheme.RASTER, 4, 4, 0, small, small), 20)], None)
     taken = skin.newest()

@@ -16,6 +16,7 @@ from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
 from acts_recon.contacts import TrackedBlob
+from acts_recon.frame_pipeline import RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig
 from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample, SkinShape
@@ -82,7 +83,9 @@ class LocalSkin:
                 try:
                     self._step(frame, stamp_ns, latency_ms)
                 except ArrayError as error:
-                    self._is_fitting = False
+                    # A frame that came twice is shown already.
+                    if not isinstance(error, RepeatedFrameError):
+                        self._is_fitting = False
                     self.rejected += 1
                     self.problem = str(error)
 
