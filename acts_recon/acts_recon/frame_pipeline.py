@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 
 import numpy as np
@@ -63,6 +64,10 @@ class FramePipeline:
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
         self._numbers = SequenceNumbers()
         self._last = (-1, -1)
+        self._touch_counts = settings.touch_counts
+        # Baselines come on another thread than frames.
+        self._lock = threading.Lock()
+        self._is_other_zero = False
         self.every: SampleFrame | None = None
         self.frame: SampleFrame | None = None
         self.contact = Contact()
@@ -82,13 +87,18 @@ class FramePipeline:
     ) -> None:
         """Use from now on what the taxels read untouched; see `BaselineSubtraction.set` and `Method.set_noise`.
 
+        Where a taxel may be touched by the one and untouched by the other, as by a tare, all frames are forgotten with
+        the next one: what differs then has not happened on the skin.
+
         Raises
         ------
         ArrayError
             One of the two cannot be; nothing is changed then.
         """
         check_untouched("noise", noise_counts, valid, self.size[0] * self.size[1])
-        self._baseline.set(counts, valid)
+        with self._lock:
+            if self._baseline.set(counts, valid) > self._touch_counts:
+                self._is_other_zero = True
         self.recovery.set_noise(noise_counts, valid)
 
     def reset(self) -> None:
@@ -122,8 +132,12 @@ class FramePipeline:
         """
         lost = self.count(frame)
         every = frame
-        if self._baseline.is_set:
-            every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
+        with self._lock:
+            if self._is_other_zero:
+                self._is_other_zero = False
+                self._forget()
+            if self._baseline.is_set:
+                every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
         once = every.once()
         self.contact = self.recovery.step(once.indices, once.counts, stamp_ns * 1e-9, once.duration_us * 1e-6)
         self.every, self.frame = every, once

@@ -49,7 +49,7 @@ class BaselineSubtraction:
         one = np.zeros(1, dtype=np.uint16)
         _subtract(one, one, self._baseline, self._result)
 
-    def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+    def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> float:
         """Take over a baseline; nothing is subtracted where it is not valid, and where it is nowhere there is none.
 
         Parameters
@@ -58,6 +58,11 @@ class BaselineSubtraction:
             Counts.
         valid : np.ndarray [shape=(size,), dtype=bool]
 
+        Returns
+        -------
+        float
+            By how much the baseline of a taxel has changed at most [counts].
+
         Raises
         ------
         ArrayError
@@ -65,8 +70,9 @@ class BaselineSubtraction:
         """
         check_untouched("baseline", baseline, valid, self._baseline.size)
         # Put in place as a whole: a frame may be worked on by another thread.
-        self._baseline = np.where(valid, baseline, np.float32(0.0)).astype(np.float32)
+        before, self._baseline = self._baseline, np.where(valid, baseline, np.float32(0.0)).astype(np.float32)
         self.is_set = bool(valid.any())
+        return float(np.abs(self._baseline - before).max())
 
     def apply(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.uint16]:
         """Counts less the baseline, rounded, at least 0; overwritten by the next call.

@@ -31,8 +31,18 @@ def _covers(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
     return math.hypot(blob.x_m - x_m, blob.y_m - y_m) <= reach_m_of(blob)
 
 
+def _whole(blobs: list[TrackedBlob]) -> tuple[float, float, float]:
+    """Centre of the strongest of these contacts, which is the first, and how far they all reach from it [m]."""
+    strongest = blobs[0]
+    reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
+    return strongest.x_m, strongest.y_m, reach_m
+
+
 class ImpactDetector:
     """Tells each touch of the skin when it begins, and what it was when it is over.
+
+    What touches already when frames begin to come, for the first time or after a `reset`, is not told, because nobody
+    knows when it began. Images without samples do not say what was measured, so there it is.
 
     Parameters
     ----------
@@ -157,7 +167,10 @@ class ImpactDetector:
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
                 touch.add(time_s, blobs, image, self.config)
                 if touch.began_s == time_s:
-                    begun.append(self._begun(touch))
+                    if not is_sampled or self._samples.has_come(*_whole(blobs)):
+                        begun.append(self._begun(touch))
+                    else:
+                        touch.is_told = True  # all there is to tell: nothing
             elif not touch.frames_seen:
                 # The image goes on showing what was measured before: that is no new touch.
                 self._touches.remove(touch)
@@ -177,9 +190,7 @@ class ImpactDetector:
         if not is_sampled:
             touch.see(np.array([time_s]))
             return True
-        strongest = blobs[0]
-        reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
-        pressed_s, free_s = self._samples.near(strongest.x_m, strongest.y_m, reach_m)
+        pressed_s, free_s = self._samples.near(*_whole(blobs))
         if pressed_s.size:
             touch.see(pressed_s)
         # Where a frame has measured nothing there, it says nothing; but not for long.

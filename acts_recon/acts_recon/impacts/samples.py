@@ -29,6 +29,12 @@ _LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
 _EARLY = 0.4
 # Until this share of the largest force, a touch rises.
 _RISEN = 0.9
+# A reading has risen from an earlier one where it is higher by so many standard deviations of the noise, or by this
+# share of what a touch is, whichever is less.
+_RISE_NOISES, _RISE_SHARE = 5.0, 0.5
+# With so many samples per taxel, what touches has been found. The search of `tracking`, which takes longest, gets a
+# fifth of them.
+_SEARCHED = 5
 # Fingers that touch together are further apart than this from middle to middle.
 _WIDEST_M = 0.013
 
@@ -65,13 +71,22 @@ class RecentSamples:
         place = np.arange(geometry.size)
         self._x_m, self._y_m = geometry.x_m(place % geometry.cols), geometry.y_m(place // geometry.cols)
         self._frames: deque[tuple[float, Array, NDArray[np.intp], Array]] = deque()
+        # Since the last reset: of each taxel in all frames but the newest, and how many samples these have.
+        self._least_counts = np.full(geometry.size, np.inf)
+        self._samples = 0
 
     def reset(self) -> None:
         """Forget all samples."""
         self._frames.clear()
+        self._least_counts.fill(np.inf)
+        self._samples = 0
 
     def add(self, time_s: float, duration_s: float, measured: NDArray[np.float32], age_s: NDArray[np.float32]) -> None:
         """Keep what was measured in one frame; parameters as of `ImpactDetector.step`."""
+        if self._frames:
+            _, _, taxel, counts = self._frames[-1]
+            self._least_counts[taxel] = np.minimum(self._least_counts[taxel], counts)
+            self._samples += taxel.size
         ages_s = age_s.ravel()
         taxel = np.flatnonzero(ages_s <= duration_s)
         self._frames.append(
@@ -86,6 +101,22 @@ class RecentSamples:
         near = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
         pressed = counts > self._touch_counts
         return time_s[near & pressed], time_s[near & ~pressed]
+
+    def has_come(self, x_m: float, y_m: float, reach_m: float) -> bool:
+        """Whether what presses near a place in the newest frame has come since the last reset.
+
+        So it is where a taxel there reads more than before, and in the end anywhere: what was there would have been
+        found. Until then nobody knows of a taxel that was not measured before.
+        """
+        _, _, taxel, counts = self._frames[-1]
+        if self._samples >= _SEARCHED * self._geometry.size:
+            return True
+        least = self._least_counts[taxel]
+        # At the edge of what rests, noise alone goes up and down through the threshold.
+        rise = min(_RISE_NOISES * self._noise_counts, _RISE_SHARE * self._touch_counts)
+        risen = (least <= self._touch_counts) & (counts - least >= rise)
+        near = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
+        return bool((risen & near).any())
 
     def untouched_s(self, x_m: float, y_m: float, first_s: float, last_s: float) -> Array:
         """When the taxels around a place were measured and not pressed, between two times [s]."""

@@ -105,6 +105,35 @@ def test_a_bounce_is_an_impact_also_where_the_frames_after_it_are_lost(lost_from
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.IMPACT)]
 
 
+@pytest.mark.parametrize(("scheme", "m"), [("tracking", 64), ("adaptive", 64), ("random", 64), ("raster", 1024)])
+@pytest.mark.parametrize("width", [0.8, 4.0])
+def test_what_rests_when_frames_begin_to_come_has_not_begun_then(scheme: str, m: int, width: float) -> None:
+    """It was told to have begun with the first frame, exact to a third of a millisecond."""
+    body = 400 * bump(32, 32, 10, 22, width)
+    settings = ReconstructionSettings(touch_counts=25)
+    sampling = SamplingConfig(scheme, 32, 32, m, threshold_counts=25)
+    assert told_of(settings, sampling, lambda time_s: body * (time_s < 0.3), 0.4) == []
+
+
+@pytest.mark.parametrize(("scheme", "m"), [("tracking", 64), ("adaptive", 64), ("raster", 1024)])
+def test_what_touches_while_nothing_comes_for_long_is_told_no_second_time(scheme: str, m: int) -> None:
+    body = 400 * bump(32, 32, 10, 22, 1.5)
+    settings = ReconstructionSettings(touch_counts=25)
+    sampling = SamplingConfig(scheme, 32, 32, m, threshold_counts=25)
+
+    def pressure(time_s: float) -> Array:
+        return body * (0.2 < time_s < 1.1 or 1.2 < time_s < 1.3)
+
+    told = told_of(settings, sampling, pressure, 1.4, (0.3, 0.9))
+    # Of the first nobody knows when it was over; the next is told as ever.
+    assert [(one.is_over, one.kind) for one in told] == [
+        (False, Kind.UNKNOWN),
+        (False, Kind.UNKNOWN),
+        (True, Kind.TAP),
+    ]
+    assert [one.onset_s for one in told] == pytest.approx([100.2, 101.2, 101.2], abs=0.02)
+
+
 @pytest.mark.parametrize("began_s", [0.30, 0.32, 0.34, 0.36])
 def test_a_tap_that_one_frame_of_a_large_array_sees_is_no_impact(began_s: float) -> None:
     settings = ReconstructionSettings(rows=64, cols=64, touch_counts=25)

@@ -88,6 +88,28 @@ def test_a_long_press_of_images_without_times_is_told(make_bench: Callable[..., 
     assert told[1].duration == pytest.approx(0.070, abs=0.003)
 
 
+def test_a_tare_neither_ends_a_touch_nor_begins_one(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(208)
+    impacts = publisher_of(bench.node, ImpactsPublisher)
+    bench.listen(Impact, "impacts", qos.STREAM)
+    bench.until(lambda: impacts.is_wanted)
+    press, nothing = bump(GEOMETRY, 15.0, 12.0), np.zeros((32, 32))
+    noise, valid = np.ones(1024, dtype=np.float32), np.ones(1024, dtype=np.bool_)
+
+    for sequence in range(260):
+        if sequence in (60, 100):
+            # Tared while it is pressed, and then untouched again though it still is.
+            baseline = (press if sequence == 60 else nothing).ravel().astype(np.float32)
+            bench.node._pipeline.set_baseline(baseline, noise, valid)
+        bench.take(sequence, press if 10 <= sequence < 140 or 170 <= sequence < 230 else nothing)
+    told = bench.received["impacts"]
+    bench.until(lambda: bool(told) and told[-1].is_over)
+    assert [one.is_over for one in told] == [False, False, True]
+    assert [(one.header.stamp.nanosec - one.onset.nanosec) * 1e-6 for one in told[:2]] == pytest.approx([0, 0], abs=2)
+    assert [one.sequence for one in told[:2]] == [10, 170]
+    assert told[2].number == told[1].number
+
+
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(208, impacts=False)
     assert "/plate/impacts" not in dict(bench.node.get_topic_names_and_types())
