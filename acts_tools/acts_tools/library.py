@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from acts_sim.pressing import OBJECTS, PressingArm, object_named
 from acts_tools.arguments import at_least_one, random_seed, refuse_unused, whole
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_writable
+from acts_tools.training.frames import digest_of
 
 
 def add_parser(subparsers: Any) -> None:
@@ -90,8 +90,8 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"left out: {counted(len(chosen) - len(touched), 'recording')} without a touch")
         frames = peaks[touched]
         labels = [recorded.label[n] for n in touched]
-        digest = hashlib.sha256(arguments.frames.read_bytes()).hexdigest()
-        source = f"{counted(len(labels), 'recording')} of {arguments.frames.name} (sha256 {digest})"
+        recordings = counted(len(labels), "recording")
+        source = f"{recordings} of {arguments.frames.name} (sha256 {digest_of(arguments.frames)})"
     library = build_object_library(
         frames, labels, touch_counts=arguments.touch_counts, provenance=f"Made by acts library from {source}."
     )

@@ -1,13 +1,15 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Folders for output files, and checks that these can be written."""
+"""Folders for output files, checks that these can be written, and reports as JSON."""
 
 from __future__ import annotations
 
+import json
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from acts_core.errors import RecordingError
 
@@ -79,3 +81,19 @@ def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
     require_writable(path, makes_folder=makes_folder)
     if path is not None and path.suffix.lower() not in _PICTURES:
         raise RecordingError(f"{path}: no name of a picture; allowed are names that end in {', '.join(_PICTURES)}")
+
+
+def write_json(path: Path | None, report: Mapping[str, Any]) -> None:
+    """Write a report, unless `path` is None.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    if path is None:
+        return
+    try:
+        path.write_text(json.dumps(report, indent=2) + "\n")
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error

@@ -66,6 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
     from acts_tools.bench import runner
+    from acts_tools.output_file import write_json
     from acts_tools.ros_domain import use_free_domain
     from acts_tools.running.stopping import StopFlag
 
@@ -74,7 +75,7 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
     use_free_domain()
     with StopFlag() as stop:
         report = runner.run(names, arguments.seconds, stop)
-    path.write_text(json.dumps(report, indent=2) + "\n")
+    write_json(path, report)
     return report
 
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import LaunchError
-from acts_tools.output_file import make_folder, require_writable
+from acts_tools.output_file import make_folder, require_writable, write_json
 
 _SHOWN_LINES = 30
 
@@ -49,7 +48,7 @@ class DemoFiles:
 
     def write(self, results: dict[str, Any]) -> None:
         """Write the results."""
-        self.results.write_text(json.dumps(results, indent=2) + "\n")
+        write_json(self.results, results)
 
     @contextmanager
     def log_shown(self) -> Iterator[None]:

@@ -10,6 +10,7 @@ import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from acts_core.words import counted
 from acts_tools.doctor import cores, memory, network, ports, scheduling
 from acts_tools.doctor.finding import Finding, Level
 from acts_tools.doctor.machine import Machine
@@ -80,7 +81,7 @@ class Diagnosis:
         notes = sum(finding.level is Level.NOTE for finding in self.findings)
         if lacking:
             return f"this machine lacks something for {what}: {', '.join(lacking)}"
-        rest = f"; {notes} {'note' if notes == 1 else 'notes'} on what could be better" if notes else ""
+        rest = f"; {counted(notes, 'note')} on what could be better" if notes else ""
         return f"this machine has what {what} needs{rest}"
 
     def to_json(self) -> str:

@@ -5,33 +5,15 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import RecordingError
-from acts_tools.output_file import require_writable
+from acts_tools.output_file import require_writable, write_json
 
 
 def number(value: float | None, width: int, digits: int) -> str:
     """A number in a table, or a dash for None."""
     return f"{'-':>{width}}" if value is None else f"{value:{width}.{digits}f}"
-
-
-def write_json(path: Path | None, report: dict[str, Any]) -> None:
-    """Write a report, unless `path` is None.
-
-    Raises
-    ------
-    RecordingError
-        When it cannot be written.
-    """
-    if path is None:
-        return
-    try:
-        path.write_text(json.dumps(report, indent=2) + "\n")
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
 
 
 class Results:

@@ -193,4 +193,4 @@ def _seen(recovery: FrameRecovery, samples: TactileSamples) -> Seen:
     image = np.rint(recovery.recovery.image).astype(np.uint16)
     age_s = recovery.recovery.age_s
     is_whole = age_s is None or bool(np.isfinite(age_s).all())
-    return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(tuple(recovery.blobs)), is_whole)
+    return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(recovery.blobs), is_whole)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -177,7 +177,7 @@ def contact_found(found: FoundContact) -> Values:
     )
 
 
-def contacts_found(blobs: tuple[TrackedBlob, ...]) -> Values:
+def contacts_found(blobs: Sequence[TrackedBlob]) -> Values:
     """Of a recovered image: an array [shape=(n, 9)] with `CONTACTS_COLUMNS`."""
     rows = [
         (

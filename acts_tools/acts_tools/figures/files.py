@@ -74,8 +74,6 @@ def write_images(path: Path, command: str, images: Mapping[str, Sequence[Sequenc
     RecordingError
         When it cannot be written.
     """
-    try:
-        arrays: dict[str, Any] = {name: np.array(image, "f4") for name, image in images.items()}
-        np.savez_compressed(path, command=np.array(command), **arrays)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+    arrays: dict[str, Any] = {name: np.array(image, "f4") for name, image in images.items()}
+    with write_whole(path, error=RecordingError) as file:
+        np.savez_compressed(file, command=np.array(command), **arrays)

@@ -43,7 +43,7 @@ class SelfTest:
         counts = {level: sum(finding.level is level for finding in self.findings) for level in Level}
         if self.level is Level.PASS:
             return f"PASS: {counted(len(self.findings), 'item')}, nothing found"
-        faults, warnings = _counted(counts[Level.FAIL], "fault"), _counted(counts[Level.WARN], "warning")
+        faults, warnings = counted(counts[Level.FAIL], "fault"), counted(counts[Level.WARN], "warning")
         return f"{self.level.name}: {faults}, {warnings}, {counts[Level.PASS]} good"
 
     def text(self) -> str:
@@ -84,10 +84,6 @@ class SelfTest:
             "thresholds": asdict(self.thresholds),
         }
         return json.dumps(content, indent=1) + "\n"
-
-
-def _counted(n: int, thing: str) -> str:
-    return f"{n} {thing}" if n == 1 else f"{n} {thing}s"
 
 
 def _number(value: float) -> float | None:

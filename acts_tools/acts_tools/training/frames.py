@@ -74,7 +74,7 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
                 f"{path}: frames of {_size(frames)}, those of {paths[0]} are {_size(parts[0])}: all must be of one size"
             )
         parts.append(frames)
-        descriptions.append(f"{description} (sha256 {_digest(path)})")
+        descriptions.append(f"{description} (sha256 {digest_of(path)})")
     return Source(parts[0] if len(parts) == 1 else np.concatenate(parts), ", ".join(descriptions))
 
 
@@ -93,8 +93,8 @@ def model_frames(
     return np.stack(frames)
 
 
-def _digest(path: Path) -> str:
-    """Hash of a file, or of all files of a folder in the order of their names."""
+def digest_of(path: Path) -> str:
+    """SHA-256 of a file, or of all files of a folder in the order of their names."""
     digest = hashlib.sha256()
     for part in sorted(path.iterdir()) if path.is_dir() else [path]:
         if part.is_file():

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import sys
 from pathlib import Path
@@ -20,6 +19,7 @@ from acts_tools.bench.skins.measurement import SETTLE_S, measure
 from acts_tools.bench.skins.options import NAME, SECONDS, SUMMARY, options_from
 from acts_tools.bench.skins.processes import RATE_HZ
 from acts_tools.bench.workbench import Workbench
+from acts_tools.output_file import write_json
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import run_folder
 from acts_tools.running.stopping import StopFlag
@@ -76,5 +76,5 @@ def run(arguments: argparse.Namespace, path: Path) -> dict[str, Any]:
     report["verdict"] = judgement.verdict(report)
     report["problems"] = judgement.problems(report)
     report["warnings"] = judgement.warnings(report)
-    path.write_text(json.dumps(report, indent=2) + "\n")
+    write_json(path, report)
     return report

@@ -15,13 +15,12 @@ from acts_core.settings import default_of
 from acts_core.words import counted
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.arguments import at_least_one, refuse_unused, taxels
-from acts_tools.evaluate import report
 from acts_tools.evaluate.classification.recorded import run_recorded
 from acts_tools.evaluate.classification.tables import draw, table, times
 from acts_tools.evaluate.classification.trials import M_OVER_TIME, MS, Trials, run_trials
 from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.large_files import tell_if_large
-from acts_tools.output_file import require_picture, require_writable
+from acts_tools.output_file import require_picture, require_writable, write_json
 from acts_tools.progress import Progress
 
 _OF_PRESSES = ("arms", "presses", "columns", "objects", "miss_taxels", "miss_deg", "seed")
@@ -114,5 +113,5 @@ def _run(arguments: argparse.Namespace) -> int:
         print(times(results["frame_us"]))
         if arguments.picture:
             draw(arguments.picture, results, M_OVER_TIME)
-    report.write_json(arguments.json, results)
+    write_json(arguments.json, results)
     return 0
