@@ -238,5 +238,6 @@ def _note_lines(path: Path, node: yaml.Node, keys: Keys, lines: dict[Keys, int],
         if key in given:
             raise SettingsError(f"{path}:{line}: the key {key!r} is given twice")
         given.add(key)
-        lines[(*keys, key)] = line
-        _note_lines(path, value_node, (*keys, key), lines, seen)
+        place = (*keys, key)
+        lines[place] = line
+        _note_lines(path, value_node, place, lines, seen)
