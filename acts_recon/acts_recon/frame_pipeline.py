@@ -153,7 +153,8 @@ class FramePipeline:
         this = (frame.sequence, frame.board_us)
         if this == self._last:
             raise RepeatedFrameError(
-                f"frame {frame.sequence} came a second time, needed is each frame once: is its topic published twice?"
+                f"frame {frame.sequence} came a second time with the same stamp; needed is each frame once, with a "
+                "number and a stamp of its own: is its topic published twice?"
             )
         self._last = this
         if self._numbers.goes_back(frame.sequence):
