@@ -10,10 +10,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
+from blobs_reference import Blob, find_blobs
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import Response, TrackedBlob
+from acts_recon.contacts import BlobConfig
 from acts_recon.contacts.blob_motion_kernels import (
     ACCELERATION_M_S2,
     FIRST_SPEED_M_S,
@@ -26,7 +28,6 @@ from acts_recon.contacts.blob_motion_kernels import (
 )
 from acts_recon.contacts.blob_track_kernels import FASTEST_M_S, GATE_TAXELS, LEAST_SHARE, direction
 from acts_recon.contacts.blob_tracks import MAX_TRACKS
-from acts_recon.contacts.blobs import Blob, BlobConfig, find_blobs
 from acts_recon.images import Borders, root_deviation
 
 Vector = NDArray[np.float64]

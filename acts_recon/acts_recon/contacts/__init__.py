@@ -8,9 +8,9 @@ the tracks of the contacts from frame to frame.
 """
 
 from acts_core.skin import TrackedBlob
+from acts_recon.contacts.blob_config import BlobConfig
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.contacts.blob_tracker import BlobTracker
-from acts_recon.contacts.blobs import BlobConfig
 from acts_recon.contacts.contact import Contact
 from acts_recon.contacts.contact_finder import ContactFinder
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The contacts in an image one by one, in numba: the same as `blobs.find_blobs`, without allocation."""
+"""The contacts in an image one by one, in numba, without allocation: the same as `blobs_reference` in the tests."""
 
 from __future__ import annotations
 

@@ -12,9 +12,9 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Response, TrackedBlob, force_table
 from acts_recon.contacts import blob_kernels, blob_track_kernels
+from acts_recon.contacts.blob_config import BlobConfig
 from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.contacts.blob_tracks import FREE, MAX_TRACKS, TRACK
-from acts_recon.contacts.blobs import BlobConfig
 from acts_recon.images import Borders, borders_of, slope_table
 
 _LONGEST_PAUSE_S = 1.0

@@ -25,13 +25,6 @@ def _subtract(
             result[i] = counts[i]
 
 
-def subtract_reference(
-    indices: NDArray[np.uint16], counts: NDArray[np.uint16], baseline: NDArray[np.float32]
-) -> NDArray[np.uint16]:
-    """Reference implementation of `BaselineSubtraction.apply`, for frames that fit the array."""
-    return np.floor(np.maximum(counts - baseline[indices] + np.float32(0.5), 0)).astype(np.uint16)
-
-
 class BaselineSubtraction:
     """Subtracts a baseline from one frame after another; from none while there is no baseline.
 

@@ -23,10 +23,9 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
-from acts_core.wire import confidence_of
 from acts_recon.objects import classification_kernels as kernels
 from acts_recon.objects.object_library import ObjectLibrary
-from acts_recon.sparse import SPARSITY_RATIO, Problems, fast_omp, in_blocks, sparsity
+from acts_recon.sparse import SPARSITY_RATIO, Problems, in_blocks, sparsity
 
 BOARD_COLUMNS = 2
 """Library columns that FastOMP may choose on the board, as in the published sketch."""
@@ -71,22 +70,6 @@ class Classification:
     best: int
     residuals: NDArray[np.floating]
     confidence: float
-
-
-def classify(
-    library: ObjectLibrary, indices: NDArray[np.integer], counts: NDArray[np.integer], config: ClassifierConfig
-) -> Classification:
-    """Classify the samples of one frame; the reference implementation of `Classifier.step`."""
-    y = np.where(counts > config.touch_counts, counts, 0).astype(np.float64)
-    residuals = np.ones(library.n_classes)
-    if not y.any():
-        return Classification(False, 0, residuals, 0.0)
-    A = library.columns[indices].astype(np.float64)
-    chosen, coefficients = fast_omp(A, y, config.columns_for(y.size, library))
-    for number in np.unique(library.classes[chosen]):
-        own = library.classes[chosen] == number
-        residuals[number] = np.linalg.norm(y - A[:, chosen[own]] @ coefficients[own]) / np.linalg.norm(y)
-    return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
 
 
 class Classifier:

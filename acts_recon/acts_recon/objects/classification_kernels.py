@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""SRC in numba: the same as `acts_recon.objects.classification.classify`, in single precision and without allocation.
+"""SRC in numba: the same as `classification_reference` in the tests, in single precision and without allocation.
 
 Also what all classifiers share: sorting by class, and the decision.
 """

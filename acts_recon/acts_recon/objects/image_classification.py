@@ -15,11 +15,11 @@ classified, each taxel weighted by its uncertainty (docs/recovery.md has the fig
   `force_penalty` is its negative log-likelihood, scaled; the force is log-normal about the library's.
 - **Non-negative least squares.** A class explains the image by non-negative multiples of its own columns.
 - **Memory.** Residuals are averaged over the last frames, exponentially.
-- **SRC at rest.** While the skin hardly changes, SRC on the whole image (`image_src`) tells similar objects apart
-  better. Its residuals are weighed in by `src_weight`, as a geometric mean.
+- **SRC at rest.** While the skin hardly changes, SRC on the whole image (`image_src_kernels`) tells similar objects
+  apart better. Its residuals are weighed in by `src_weight`, as a geometric mean.
 
-`classify_image` is the reference implementation for a single image, in double precision; `ImageClassifier` runs
-`image_classification_kernels` on one image after another, in single precision.
+`ImageClassifier` runs `image_classification_kernels` on one image after another, in single precision. The reference
+implementation for a single image, in double precision, is `classification_reference` in the tests.
 """
 
 from __future__ import annotations
@@ -34,18 +34,11 @@ from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse, Response
-from acts_core.wire import confidence_of
 from acts_recon.objects import image_classification_kernels as kernels
 from acts_recon.objects import image_src_kernels
 from acts_recon.objects.classification import Classification
 from acts_recon.objects.classification_kernels import decide
-from acts_recon.objects.image_src import (
-    KNOWN_COUNTS,
-    PROPOSED_CLASSES,
-    PROPOSED_COLUMNS,
-    proposed_columns,
-    src_residuals,
-)
+from acts_recon.objects.image_src_kernels import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS
 from acts_recon.objects.object_library import ObjectLibrary
 from acts_recon.objects.rate_of_change import RateOfChange
 
@@ -144,52 +137,6 @@ def force_penalty(force: float, config: ImageClassifierConfig) -> float:
 def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:
     """Weight of SRC's residuals against those of the comparison of images, by the skin's rate of change."""
     return config.src_weight / (1 + (rate_counts_per_s / config.rest_counts_per_s) ** 2)
-
-
-def classify_image(
-    library: ObjectLibrary,
-    image: NDArray[np.floating],
-    sigma: NDArray[np.floating],
-    config: ImageClassifierConfig | None = None,
-    response: Response | None = None,
-) -> Classification:
-    """Classify one image of a skin at rest, without earlier images; see `ImageClassifier.step`."""
-    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
-    from scipy.optimize import nnls
-
-    config = config or ImageClassifierConfig()
-    patterns, norms_counts, classes = shallower_patterns(library, response)
-    x = np.asarray(image, dtype=np.float64).ravel()
-    x = np.where(x > config.touch_counts, x, 0.0)
-    residuals = np.ones(library.n_classes)
-    if not x.any():
-        return Classification(False, 0, residuals, 0.0)
-    spread = np.asarray(sigma, dtype=np.float64).ravel()
-    root = 1 / np.sqrt(config.noise_counts**2 + (config.relative_error * x) ** 2 + spread**2)
-    y, A = root * x, root[:, None] * patterns.T.astype(np.float64)
-    square = y @ y
-    dots, norms = y @ A, np.einsum("ij,ij->j", A, A)
-    left = np.full(library.n_classes, square)
-    # What each pattern alone explains of the image, less the penalty of its force.
-    explained = np.zeros(classes.size)
-    for p in np.flatnonzero((dots > 0) & (norms > 0)):
-        force = dots[p] / norms[p] / norms_counts[p]
-        explained[p] = max(dots[p] ** 2 / norms[p] - square * force_penalty(force, config), 0.0)
-    best = np.array([explained[classes == number].max() for number in range(library.n_classes)])
-    left -= best
-    for number in np.argsort(-best, kind="stable")[:REFINED_CLASSES]:
-        own = np.flatnonzero(classes == number)
-        mixed = own[np.argsort(-explained[own], kind="stable")[:MIXED_COLUMNS]]
-        shares, unexplained = nnls(A[:, mixed], y)
-        force = float((shares / norms_counts[mixed]).sum())
-        if force > 0:
-            left[number] = min(left[number], unexplained**2 + square * force_penalty(force, config))
-    residuals = np.sqrt(np.maximum(left, 0) / square)
-    src = src_residuals(library, proposed_columns(library, residuals, explained[:: len(LEVELS)]), x, spread)
-    if src is not None:
-        weight = src_weight(0.0, config)
-        residuals = (residuals * src**weight) ** (1 / (1 + weight))
-    return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
 
 
 class ImageClassifier:

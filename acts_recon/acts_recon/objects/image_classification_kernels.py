@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Classification of images in numba: `image_classification.classify_image` with memory and without allocation."""
+"""Classification of images in numba, with memory and without allocation; `image_classification` says how it works."""
 
 from __future__ import annotations
 

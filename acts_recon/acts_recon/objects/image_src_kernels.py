@@ -1,7 +1,16 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""SRC on a whole image in numba: the same as `acts_recon.objects.image_src.src_residuals`, without allocation."""
+"""Sparse-representation classification (SRC) of a whole image, among the classes that a comparison ranks first.
+
+The paper's SRC (`classification`) chooses columns out of the whole library by a pursuit. Here `image_classification`
+has ranked the classes already. Columns A of the best classes, from each those that alone explain most, are fitted to
+the image y by ridge regression: ``x = (A'A + r I)^-1 A'y``. The residual of class c uses its own columns only:
+``|y - A_c x_c| / |y|``.
+
+Only taxels whose sigma is small take part. The kernels know A'A of the whole library, and subtract the other taxels.
+They allocate nothing; the tests compare them with `src_residuals` in `classification_reference`.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +21,15 @@ from acts_core.kernels import kernel
 from acts_recon.objects.classification_kernels import by_class
 from acts_recon.objects.object_library import ObjectLibrary
 from acts_recon.sparse import FASTMATH, REGULARISATION
+
+PROPOSED_CLASSES = 5
+"""Classes that the comparison proposes."""
+
+PROPOSED_COLUMNS = 12
+"""Library columns of each of them at most."""
+
+KNOWN_COUNTS = 200.0
+"""Standard deviation up to which a taxel is a sample for SRC, which knows no uncertainty."""
 
 
 @kernel(fastmath=FASTMATH)
@@ -24,7 +42,7 @@ def _propose(
     most_columns: int,
     proposed: NDArray[np.int64],
 ) -> int:
-    """`acts_recon.objects.image_src.proposed_columns` into `proposed`, in another order; returns how many there are."""
+    """Write the best columns of the best classes into `proposed`, in no order; returns how many there are."""
     n = 0
     for number in range(residuals.shape[0]):
         better = 0

@@ -7,8 +7,7 @@ An object that comes down presses many taxels at once. A taxel that was not meas
 its own past does not show the change. The rate r at which other pressed taxels changed does:
 ``inflated sigma^2 = sigma^2 + (age r)^2``.
 
-`rate_of_change` is the reference implementation of one step; `RateOfChange` follows it over frames by
-`rate_of_change_kernels`.
+`RateOfChange` follows it over frames by `rate_of_change_kernels`.
 """
 
 from __future__ import annotations
@@ -30,34 +29,8 @@ _NOISE_COUNTS = 10.0
 """Smaller changes are noise."""
 
 
-def rate_of_change(
-    before: NDArray[np.floating],
-    image: NDArray[np.floating],
-    since_s: NDArray[np.floating],
-    fresh: NDArray[np.bool_],
-    touch_counts: float,
-) -> float:
-    """Root mean square of the rates of change of the taxels that are or were pressed [counts/s]; 0 without any.
-
-    Parameters
-    ----------
-    before, image : np.ndarray [dtype=float]
-        What was measured last, and now [counts].
-    since_s : np.ndarray [dtype=float]
-        Time between the two measurements [s].
-    fresh : np.ndarray [dtype=bool]
-        Which taxels were measured now.
-    touch_counts : float
-        Above it a taxel is pressed.
-    """
-    pressed = fresh & (np.maximum(image, before) > touch_counts)
-    change = np.abs(image - before)[pressed]
-    rates = np.where(change > _NOISE_COUNTS, change / np.clip(since_s[pressed], _SHORTEST_S, _LONGEST_S), 0)
-    return float(np.sqrt(np.mean(np.square(rates, dtype=np.float64)))) if rates.size else 0.0
-
-
 class RateOfChange:
-    """Exponential average of `rate_of_change` over frames, and the sigma it inflates; allocates nothing.
+    """Exponential average of the rate over frames, and the sigma it inflates; allocates nothing.
 
     Parameters
     ----------
@@ -68,7 +41,8 @@ class RateOfChange:
     Attributes
     ----------
     rate_counts_per_s : float
-        `rate_of_change` of the last frames.
+        Root mean square of the rates of change of the taxels that are or were pressed, averaged over the last frames;
+        0 without any.
     """
 
     def __init__(self, rows: int, cols: int, touch_counts: float) -> None:

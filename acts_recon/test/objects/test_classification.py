@@ -5,13 +5,13 @@
 
 import numpy as np
 import pytest
+from classification_reference import classify
 from numpy.typing import NDArray
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_recon.objects import Classification, Classifier, ClassifierConfig, ObjectLibrary, build_object_library
-from acts_recon.objects.classification import classify
 
 Frame = NDArray[np.uint16]
 PLACES = {"corner": (6, 6), "middle": (16, 15), "edge": (28, 16)}

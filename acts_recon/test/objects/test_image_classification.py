@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from classification_reference import classify_image, proposed_columns, src_residuals
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -20,8 +21,7 @@ from acts_core.skin import ForceResponse
 from acts_core.wire import confidence_of
 from acts_recon.objects import ImageClassifier, ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_recon.objects.classification_kernels import decide
-from acts_recon.objects.image_classification import LEVELS, classify_image, shallower_patterns
-from acts_recon.objects.image_src import proposed_columns, src_residuals
+from acts_recon.objects.image_classification import LEVELS, shallower_patterns
 
 pytestmark = pytest.mark.slow
 

@@ -5,17 +5,12 @@
 
 import numpy as np
 import pytest
+from classification_reference import proposed_columns, src_residuals
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
 from acts_recon.objects import ObjectLibrary, build_object_library, image_src_kernels
-from acts_recon.objects.image_src import (
-    KNOWN_COUNTS,
-    PROPOSED_CLASSES,
-    PROPOSED_COLUMNS,
-    proposed_columns,
-    src_residuals,
-)
+from acts_recon.objects.image_src_kernels import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS
 
 pytestmark = pytest.mark.slow
 

@@ -5,10 +5,37 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from acts_recon.objects.rate_of_change import RateOfChange, rate_of_change
+from acts_recon.objects.rate_of_change import _LONGEST_S, _NOISE_COUNTS, _SHORTEST_S, RateOfChange
 
 SURE = np.zeros((2, 2), dtype=np.float32)
+
+
+def rate_of_change(
+    before: NDArray[np.floating],
+    image: NDArray[np.floating],
+    since_s: NDArray[np.floating],
+    fresh: NDArray[np.bool_],
+    touch_counts: float,
+) -> float:
+    """Root mean square of the rates of change of the taxels that are or were pressed [counts/s]; 0 without any.
+
+    Parameters
+    ----------
+    before, image : np.ndarray [dtype=float]
+        What was measured last, and now [counts].
+    since_s : np.ndarray [dtype=float]
+        Time between the two measurements [s].
+    fresh : np.ndarray [dtype=bool]
+        Which taxels were measured now.
+    touch_counts : float
+        Above it a taxel is pressed.
+    """
+    pressed = fresh & (np.maximum(image, before) > touch_counts)
+    change = np.abs(image - before)[pressed]
+    rates = np.where(change > _NOISE_COUNTS, change / np.clip(since_s[pressed], _SHORTEST_S, _LONGEST_S), 0)
+    return float(np.sqrt(np.mean(np.square(rates, dtype=np.float64)))) if rates.size else 0.0
 
 
 def test_old_values_are_doubted_while_others_change() -> None:

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The contacts in an image one by one, each with its standard deviations."""
+"""Reference implementation of `acts_recon.contacts.blob_kernels.find_blobs`."""
 
 from __future__ import annotations
 
@@ -9,45 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.settings import setting, validate
 from acts_core.skin import Response
-from acts_recon.contacts.blob_kernels import MAX_BLOBS
-from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, Variances, borders_of, grown, variances
-
-
-@dataclass(frozen=True)
-class BlobConfig:
-    """Settings of contacts with numbers; the node sets all but `err_together`, which is no parameter."""
-
-    touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
-    hysteresis_counts: int = setting(
-        10, "a pressed taxel is released at this many counts less; never below 0", minimum=0, maximum=COUNT_MAX
-    )
-    noise_counts: float = setting(
-        NOISE_COUNTS,
-        "standard deviation of a reading; what an image's is beyond it is that of a guess [counts]",
-        minimum=0.0,
-        maximum=100.0,
-    )
-    err_together: float = setting(
-        ERR_TOGETHER, "guesses that err together: as many as this are one independent error", minimum=1.0, maximum=100.0
-    )
-    bridge_s: float = setting(
-        0.02, "a contact that comes back within this time keeps its number [s]", minimum=0.0, maximum=10.0
-    )
-    memory_s: float = setting(
-        10.0, "contacts that became one get their numbers back within this time [s]", minimum=0.0, maximum=1000.0
-    )
-
-    def __post_init__(self) -> None:
-        validate(self)
-
-    @property
-    def release_counts(self) -> int:
-        """Counts at or below which a pressed taxel ceases to be."""
-        return max(self.touch_counts - self.hysteresis_counts, 0)
+from acts_recon.contacts import MAX_BLOBS, BlobConfig
+from acts_recon.images import Borders, Variances, borders_of, grown, variances
 
 
 @dataclass(frozen=True)
@@ -97,7 +64,7 @@ def find_blobs(
     pressed_before: NDArray[np.bool_] | None = None,
     borders: Borders | None = None,
 ) -> list[Blob]:
-    """Find the contacts in an image; the reference implementation of `acts_recon.contacts.blob_kernels.find_blobs`.
+    """Find the contacts in an image.
 
     A contact is a group of pressed taxels that touch along a side or at a corner. The strongest `MAX_BLOBS` are kept.
     Taxels that only the hysteresis holds join a contact together, but do not count in its numbers, so that these
@@ -172,9 +139,6 @@ def find_blobs(
 
 def _groups(pressed: NDArray[np.bool_], borders: Borders) -> list[NDArray[np.bool_]]:
     """Groups of pressed taxels that touch along a side or at a corner, in the order of their first taxels."""
-    # Here: half the time a node takes to start would go by importing it, and nodes use the kernels.
-    from scipy import ndimage
-
     groups = []
     for first_row, end_row, first_col, end_col in borders.rectangles.tolist():
         there = np.s_[first_row:end_row, first_col:end_col]
