@@ -47,7 +47,7 @@ export class Controls {
     for (const group of this.groups.children) {
       const { of } = group.dataset;
       const offered = new Set(offers.filter(([, namespace]) => namespace === of).map(([what]) => what));
-      const makers = new Map([["title", () => title(of)]]);
+      const makers = new Map([["title", () => heading(of)]]);
       for (const button of BUTTONS) if (offered.has(button.do)) makers.set(button.do, () => this.#button(of, button));
       if (offered.has("set")) for (const field of FIELDS) makers.set(field.name, () => this.#field(of, field, schemes));
       arrange(group, [...makers.keys()], (part) => makers.get(part)());
@@ -128,7 +128,7 @@ function refusal(value, least, most) {
  * may be about to press it, or typing in it.
  */
 function arrange(parent, keys, make) {
-  for (const child of [...parent.children]) if (!keys.includes(child.dataset.key)) child.remove();
+  for (const child of Array.from(parent.children)) if (!keys.includes(child.dataset.key)) child.remove();
   keys.forEach((key, index) => {
     const present = parent.children[index];
     if (present?.dataset.key === key) return;
@@ -138,7 +138,7 @@ function arrange(parent, keys, make) {
   });
 }
 
-function title(of) {
+function heading(of) {
   const element = document.createElement("h3");
   element.textContent = of || "/";
   return element;

@@ -32,7 +32,7 @@ export function answered(message) {
 
 /** The connection is lost: nothing that waits will be answered. */
 export function forgetAll() {
-  for (const id of [...waiting.keys()]) settle(id, { done: false, text: "the connection was lost before the answer" });
+  for (const id of waiting.keys()) settle(id, { done: false, text: "the connection was lost before the answer" });
 }
 
 function settle(id, answer) {
