@@ -6,7 +6,7 @@
 const ADVICE = [
   [/end all but one/i, "What is shown is a mixture of what these nodes say. A second skin needs a namespace of its own, and a recording is played without its drivers."],
   [/no board|no frames from|is closed|no such port|cannot open/i, "Is the board plugged in and powered? acts doctor tells which ports there are, and whether you may open them."],
-  [/parameters rows and cols/i, "The array has another size than the parameters rows and cols say: give the launch file that of the array."],
+  [/parameters rows and cols/i, "The array has another size than the parameters rows and cols say: give the launch file that of the array, or acts view --board its --size."],
   [/crc|malformed|damaged/i, "Bytes are damaged on the way: try another cable or port, without a hub; see docs/faults.md."],
   [/not in force/i, "The board does not answer: its firmware may be another one (parameter protocol), or the line only goes one way."],
   [/do not fit/i, "Driver and reconstruction must have the same rows and cols; what does not fit is in the log."],

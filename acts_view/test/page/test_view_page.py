@@ -320,6 +320,10 @@ def test_of_a_skin_that_is_waited_for_it_asks_for_its_name_and_nodes(
         # "late" is in the name of the topic only.
         ("no contact messages on /plate/contact", "Does the reconstruction of this skin run? Its own line says."),
         ("/plate/contact has 2 publishers (/acts_player, /plate/reconstruction): end all but one", "is a mixture"),
+        (
+            "the board measures 16 x 16 taxels, the parameters rows and cols say 32 x 32",
+            "or acts view --board its --size",
+        ),
         ("9 frames were late", "The machine is too busy"),
         ("7 cycles missed", "The machine is too busy"),
     ],
