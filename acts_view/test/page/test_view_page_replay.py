@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,10 +15,12 @@ import numpy as np
 import pytest
 from test_view_local import Shown, until, write_frames
 from view_browser import expect, needs_browser
+from view_player import Player, pressed
 
 from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
 from acts_view.local.sources import RecordedSource, open_recorded
+from acts_view.skin.snapshot import SkinShape
 from acts_view.web.requests import Request
 
 if TYPE_CHECKING:
@@ -89,6 +92,35 @@ def test_where_the_size_of_the_array_changes_no_picture_of_before_is_shown(open_
             expect(pill).to_have_text(state)
     finally:
         shown.close()
+
+
+def test_after_a_jump_no_trail_leads_from_the_contact_before(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    server = (player := play(())).server
+    server.show_shape("/plate", SkinShape())
+    page = open_page(player, is_live=False)
+
+    def show_at(x_m: float) -> None:
+        _, frame, samples = pressed("/plate", 1000.0 + x_m)
+        frame.contacts[0, :2] = x_m, 0.0
+        server.show_frame("/plate", replace(frame, touch=(x_m, 0.0, 1.0, 800.0, 1e-5), outlines=()), samples)
+        expect(page.locator("[data-number=x]")).to_have_text(f"{1000 * x_m:.1f}")
+
+    def is_drawn_at(x_m: float) -> bool:
+        drawn = """(x) => {
+          const canvas = document.querySelector("canvas.marks"), copy = new OffscreenCanvas(1, 1).getContext("2d");
+          copy.drawImage(canvas, Math.round((0.5 + x / 0.14) * canvas.width), canvas.height / 2, 1, 1, 0, 0, 1, 1);
+          return copy.getImageData(0, 0, 1, 1).data[3] > 0;
+        }"""
+        return bool(page.evaluate(drawn, x_m))
+
+    server.show_status({"skins": ["/plate"], "diagnostics": []})
+    show_at(-0.06)
+    show_at(-0.04)
+    server.forget("/plate")
+    show_at(-0.02)
+    assert not any(map(is_drawn_at, (-0.05, -0.03)))
 
 
 def test_the_slider_reaches_the_end_of_a_recording(tmp_path: Path, open_page: Callable[..., Page]) -> None:

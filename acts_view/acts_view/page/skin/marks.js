@@ -21,7 +21,10 @@ export class Marks {
   }
 
   /** Take where the contacts of a message are. */
-  remember({ arrays: { contacts, contact_numbers } }) {
+  remember({ life, silent_s, arrays: { contacts, contact_numbers } }) {
+    // Where the stream began anew, or its picture was taken away, contacts did not come from where others were.
+    if (life !== this.life || silent_s === null) this.trails.clear();
+    this.life = life;
     const now_ms = (this.now_ms = performance.now());
     const width = contacts.shape[1];
     contact_numbers.data.forEach((number, index) => {
