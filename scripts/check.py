@@ -70,7 +70,6 @@ def lint(beside: dict[str, list[str]]) -> list[str]:
             "ruff: rules": ["ruff", "check", "."],
             "ruff: format": ["ruff", "format", "--check", "--quiet", "."],
             "mypy": [sys.executable, "scripts/check_types.py"],
-            "oxlint": ["oxlint", "--deny-warnings", "acts_view"],
             "clang-format": ["clang-format", "--dry-run", "--Werror", *tracked(*CXX_PATTERNS)],
             "g++: warnings": ["g++", *CXX_WARNINGS, *firmware, *on_host],
             "package.xml: what is imported is declared": [sys.executable, "scripts/dependencies.py"],
@@ -131,7 +130,7 @@ def main() -> int:
         return ended(reformat())
     if arguments.quick:
         return ended(run("ruff: rules", ["ruff", "check", "."]) + test(["-m", "not slow", *arguments.pytest]))
-    missing = [tool for tool in ("ruff", "mypy", "oxlint", "clang-format") if shutil.which(tool) is None]
+    missing = [tool for tool in ("ruff", "mypy", "clang-format") if shutil.which(tool) is None]
     if missing:
         # A sourced ROS installation need not have them; the bare machine's set-up always does.
         print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
