@@ -6,7 +6,7 @@
 import { setText } from "../words.js";
 
 const FOREIGN = 0.9; // what leaves so much unexplained is none of the known objects
-const UNDECIDED = 0.2; // below it the paper's classifier is mostly wrong, and ours is right seven times of ten
+const UNDECIDED = 0.2; // below it answers are often wrong
 
 export class Objects {
   constructor(element) {
