@@ -37,13 +37,13 @@ def diagrams(page: Any, panels: list[Panel]) -> tuple[list[Any], list[Any]]:
     from acts_tools.figures.drawing.over_time import scale_of
     from acts_tools.figures.drawing.style import Looks
 
-    looks = Looks(panels)
-    for axes, panel in zip(page.axes, panels, strict=True):
+    looks, places = Looks(panels), list(page.axes)
+    for axes, panel in zip(places, panels, strict=True):
         draw_panel(axes, panel, looks, scale_of(panels))
-    draw_legends(page, page.axes, panels, looks, None)
+    draw_legends(page, places, panels, looks, None)
     page.canvas.draw()
     legends = [*page.legends, *(axes.get_legend() for axes in page.axes if axes.get_legend())]
-    return [axes.get_window_extent() for axes in page.axes], [legend.get_window_extent() for legend in legends]
+    return [axes.get_window_extent() for axes in places], [legend.get_window_extent() for legend in legends]
 
 
 @pytest.mark.parametrize(("colours", "expected"), [(("C0", "C0"), 1), (("C0", "C1"), 2)])

@@ -20,13 +20,17 @@ from matplotlib import pyplot as plt
 
 _REFERENCE = "#d62728"
 _PATH = "#1f77b4"
+_TILTS = 4
+# Height of a row with nothing but a legend, for which the layout makes room: matplotlib before 3.7 knows no other
+# place outside of the axes.
+_LEGEND = 1e-3
 
 
 def draw(recording: Recording, results: dict[str, Any], geometry: ArrayGeometry, path: Path) -> None:
     """Draw a run to a PNG file."""
     names = [name for name in ("hold", *LETTERS) if name in recording.segments]
     figure = plt.figure(figsize=(3.6 * max(len(names), 3), 9.6), layout="constrained")
-    grid = figure.add_gridspec(3, max(len(names), 3), height_ratios=[1, 1, 0.6])
+    grid = figure.add_gridspec(4, max(len(names), 3), height_ratios=[1, 1, 0.6, _LEGEND])
     latency = results["latency_ms"]
     if latency["median"] is None:
         timing = "no contact received"
@@ -41,7 +45,13 @@ def draw(recording: Recording, results: dict[str, Any], geometry: ArrayGeometry,
     for column, name in enumerate(names):
         _draw_path(figure.add_subplot(grid[0, column]), recording, results, name, half_mm)
         _draw_pressure(figure.add_subplot(grid[1, column]), recording, name, half_mm)
-    _draw_tilt(figure.add_subplot(grid[2, :]), recording)
+    tilt = figure.add_subplot(grid[2, :])
+    _draw_tilt(tilt, recording)
+    if recording.tilt_time_s:
+        # Below the curves and not over them.
+        below = figure.add_subplot(grid[3, :])
+        below.axis("off")
+        below.legend(handles=tilt.get_lines()[:_TILTS], loc="center", ncol=_TILTS, fontsize=9)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110)
     plt.close(figure)
@@ -83,8 +93,6 @@ def _draw_tilt(axes: Any, recording: Recording) -> None:
             axes.plot(time_s, commanded[:, index], color=colour, lw=0.8, alpha=0.6, label=f"commanded about {axis}")
             axes.plot(time_s, measured[:, index], color=colour, lw=1.4, label=f"measured about {axis}")
         axes.set_xlim(time_s[0], time_s[-1])
-        # Below the curves and not over them.
-        axes.figure.legend(handles=axes.get_lines(), loc="outside lower center", ncols=4, fontsize=9)
         start_s = recording.tilt_time_s[0]
         _mark_segments(axes, recording, start_s)
     axes.set(xlabel="time [s]", ylabel="tilt [deg]", title="tilt of the plate")

@@ -39,6 +39,9 @@ _MARGIN_PIXELS = 12
 _PUT = "put"
 _PUT_SETTLED_S = 0.05
 _AVOIDING = "#ff7f0e"
+# Height of a row with nothing but a legend, for which the layout makes room: matplotlib before 3.7 knows no other
+# place outside of the axes.
+_LEGEND = 1e-3
 
 
 def draw(acts: list[Act], path: Path) -> None:
@@ -53,7 +56,7 @@ def draw(acts: list[Act], path: Path) -> None:
     """
     figure = plt.figure(figsize=(_COLUMN_IN * len(acts), _HEIGHT_IN), layout="constrained")
     figure.suptitle(textwrap.fill(_TITLE, _LETTERS_A_COLUMN * len(acts)), fontsize=15)
-    grid = figure.add_gridspec(5, len(acts), height_ratios=[1.6, 1.6, 1.0, 1.0, 1.0])
+    grid = figure.add_gridspec(6, len(acts), height_ratios=[1.6, 1.6, 1.0, 1.0, 1.0, _LEGEND])
     for k, act in enumerate(acts):
         begin_s, end_s = _span(act)
         for row, (moment, words) in enumerate(_moments(act)):
@@ -71,17 +74,18 @@ def draw(acts: list[Act], path: Path) -> None:
         _name_marks(axes[0], act, begin_s, end_s)
         axes[2].set_xlabel("time since the grasp began [s]")
         if k == 0:
-            _legend(figure, axes, 3 * len(acts))
+            _legend(figure.add_subplot(grid[5, :]), axes, 3 * len(acts))
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 
 
-def _legend(figure: Any, axes: list[Any], columns: int) -> None:
+def _legend(below: Any, axes: list[Any], columns: int) -> None:
     """Name the fingers of force and slip, and the axes of the motion."""
     handles = [handle for one in axes[:2] for handle in one.get_legend_handles_labels()[0]]
     handles.append(mpl.patches.Patch(color=_AVOIDING, alpha=0.2, label="the hand avoids a tip"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=10)
+    below.axis("off")
+    below.legend(handles=handles, loc="center", ncol=columns, fontsize=10)
 
 
 def _span(act: Act) -> tuple[float, float]:

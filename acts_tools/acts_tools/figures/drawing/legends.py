@@ -8,8 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from matplotlib.colorbar import make_axes
+
 from acts_tools.figures.drawing.style import Looks
 from acts_tools.figures.sheet import Panel
+
+_NARROW = 1e-3
 
 
 def named(panel: Panel) -> bool:
@@ -44,7 +48,10 @@ def draw_legends(figure: Any, axes: Sequence[Any], panels: Sequence[Panel], look
             free.axis("off")
             free.legend(handles, list(order), loc="center")
         else:
-            legend = figure.legend(handles, list(order), loc="outside right center")
+            # For a scale, the layout makes room beside all diagrams; for a legend only from matplotlib 3.7 on.
+            place, _ = make_axes(list(axes), location="right", fraction=_NARROW)
+            place.axis("off")
+            legend = place.legend(handles, list(order), loc="center")
             _widen(figure, _width_inch(figure, legend))
         return
     widths = []
