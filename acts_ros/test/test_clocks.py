@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 import rclpy
-from rclpy.clock_type import ClockType
+from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode

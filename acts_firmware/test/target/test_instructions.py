@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 import pytest
 from firmware_script import SCRIPT, firmware
+from numpy.typing import NDArray
 
 pytestmark = pytest.mark.slow
 
 CLOCK_MHZ = 600
 AXIS = [50, 100, 200, 300, 400, 500]
 COLUMNS = {"image": AXIS, "object": [30, 60]}
-Grid = np.ndarray[Any, np.dtype[np.float64]]
+Grid = NDArray[np.float64]
 
 
 @pytest.fixture(scope="module")
