@@ -82,6 +82,9 @@ class DynamixelPort:
                 self._port.ser.exclusive = True
                 # The library reads in a loop without a pause until an answer is complete: that would fill a core.
                 self._port.ser.timeout = _READ_TIMEOUT_S
+                # Before 4.1, which ROS does not have, it leaves in the port what came too late: each request from then
+                # on would get the answer to the one before.
+                self._port.clearPort = self._port.ser.reset_input_buffer
         except (OSError, termios.error) as error:
             self.disconnect()
             raise HandError(why_not(config.port, error)) from error
