@@ -48,19 +48,23 @@ class PolledSubscription(Generic[M]):
             Each with the time at which the middleware received it, or the present where that is unknown, by the
             system's clock [ns].
         """
-        taken: list[tuple[M, int]] = []
+        # Not every middleware records the time of reception.
+        return [(message, info["received_timestamp"] or time.time_ns()) for message, info in self._take()]
+
+    def take_all_sent(self) -> list[tuple[M, int]]:
+        """As `take_all`, each with the time at which it was sent by the system's clock [ns]; 0 where it is unknown."""
+        return [(message, info["source_timestamp"]) for message, info in self._take()]
+
+    def _take(self) -> Iterator[tuple[M, dict[str, int]]]:
         subscription = self._subscription
         # The handle is kept alive while it is used: another thread may destroy the node.
         handle = subscription.handle
         with handle:
-            while len(taken) < subscription.qos_profile.depth:
+            for _ in range(subscription.qos_profile.depth):
                 found = handle.take_message(subscription.msg_type, subscription.raw)
                 if found is None:
                     break
-                message, info = found
-                # Not every middleware records the time of reception.
-                taken.append((message, info["received_timestamp"] or time.time_ns()))
-        return taken
+                yield found
 
 
 class PolledService:

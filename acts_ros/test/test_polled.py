@@ -134,3 +134,18 @@ def test_the_time_of_reception_is_told(pair: Pair) -> None:
 
     pair.until(is_there)
     assert before_ns <= found[0][1] <= time.time_ns()
+
+
+def test_the_time_of_sending_is_told(pair: Pair) -> None:
+    before_ns = time.time_ns()
+    pair.send(7)
+    found: list[tuple[Int32, int]] = []
+
+    def is_there() -> bool:
+        found.extend(pair.polled.take_all_sent())
+        return bool(found)
+
+    pair.until(is_there)
+    assert found[0][0].data == 7
+    assert before_ns <= found[0][1] <= time.time_ns()
+    assert pair.polled.take_all_sent() == []

@@ -10,13 +10,12 @@ from collections.abc import Callable
 from types import TracebackType
 
 import rclpy
-from rclpy.executors import Executor
-from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from acts_core.errors import LaunchError
 from acts_ros import middleware
 from acts_ros.executor import make_executor, spin_for
+from acts_ros.polled import PollingNode
 from acts_tools.bench.rigs.processes import NAMESPACE
 from acts_tools.bench.workbench import Workbench
 
@@ -30,24 +29,21 @@ class Graph:
     ----------
     workbench : Workbench
         Stop flag: ends the spinning when the user wants to stop.
-    make : callable
-        Makes the executor.
 
     Attributes
     ----------
-    node : Node
+    node : PollingNode
         Named "bench", in the skin's namespace; the executor calls it back.
     """
 
-    def __init__(self, workbench: Workbench, make: Callable[[], Executor] = make_executor) -> None:
+    def __init__(self, workbench: Workbench) -> None:
         self._workbench = workbench
-        self._make = make
 
     def __enter__(self) -> Graph:
         """Initialise ROS and make the node."""
         middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        self.node = Node("bench", namespace=NAMESPACE)
-        self._executor = self._make()
+        self.node = PollingNode("bench", namespace=NAMESPACE)
+        self._executor = make_executor()
         self._executor.add_node(self.node)
         return self
 
@@ -93,7 +89,7 @@ class Graph:
         """Run callbacks for a while [s], without checking the stop flag."""
         spin_for(self._executor, seconds)
 
-    def spin_for(self, seconds: float) -> None:
-        """Run callbacks for a while [s]."""
+    def spin_for(self, seconds: float, check: Callable[[], None] | None = None) -> None:
+        """Run callbacks for a while [s]; `check` as of `spin_until`."""
         end_s = time.monotonic() + seconds
-        self.spin_until(lambda: time.monotonic() >= end_s, seconds + 60.0, "time to pass")
+        self.spin_until(lambda: time.monotonic() >= end_s, seconds + 60.0, "time to pass", check)
