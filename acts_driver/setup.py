@@ -15,6 +15,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/udev", ["udev/60-acts-teensy.rules"]),
     ],
+    python_requires=">=3.10",
     install_requires=["acts_core", "numpy", "pyserial"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,

@@ -16,6 +16,7 @@ setup(
         # On PATH; what entry points make is for `ros2 run` and is not.
         ("bin", ["bin/acts"]),
     ],
+    python_requires=">=3.10",
     install_requires=["setuptools"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
