@@ -39,6 +39,7 @@ class ServiceLaunch(Launched):
     def __init__(self, launch_file: LaunchFile) -> None:
         super().__init__(launch_file.domain_id)
         self._text: list[str] = []
+        self._parts: dict[tuple[int, bool], str] = {}
         self._context: LaunchContext | None = None
         # Written by the launch's thread, read by the test's.
         self._lock = threading.Lock()
@@ -92,8 +93,14 @@ class ServiceLaunch(Launched):
         self._context = context
 
     def _on_output(self, event: Any) -> None:
+        # Each line after the name of its process, as launches print it. A line may come in parts.
+        source = (event.pid, event.from_stdout)
         with self._lock:
-            self._text.append(event.text.decode(errors="replace"))
+            text = self._parts.pop(source, "") + event.text.decode(errors="replace")
+            lines = text.splitlines(keepends=True)
+            if lines and not lines[-1].endswith("\n"):
+                self._parts[source] = lines.pop()
+            self._text += [f"[{event.process_name}] {line}" for line in lines]
 
     def _on_start(self, event: Any, _context: LaunchContext) -> None:
         with self._lock:
