@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import itertools
 import math
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +23,8 @@ from acts_tools.firmware.library import library_path
 _LIBRARY = "libacts_sampler.so"
 
 
-def _library() -> ctypes.CDLL:
-    return _loaded(library_path(_LIBRARY))
-
-
-@cache
-def _loaded(path: Path) -> ctypes.CDLL:
+@lru_cache(maxsize=4)
+def _library(path: Path) -> ctypes.CDLL:
     library = ctypes.CDLL(str(path))
     pointer, integer, size, real = ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t, ctypes.c_double
     library.acts_sampler_new.restype = pointer
@@ -53,6 +49,8 @@ class BoardSampler:
     config : SamplingConfig
     noise_counts : float
         Standard deviation of normal noise that is added to every measurement, with the seed of `config`.
+    library : Path, optional
+        Library with the firmware's sampler; by default the installed one.
     skin_map : SkinMap, optional
         How the taxels lie on the skin; by default as in the matrix.
 
@@ -62,9 +60,15 @@ class BoardSampler:
         When the firmware refuses the settings or the map, or the library is not built.
     """
 
-    def __init__(self, config: SamplingConfig, noise_counts: float = 0.0, skin_map: SkinMap | None = None) -> None:
+    def __init__(
+        self,
+        config: SamplingConfig,
+        noise_counts: float = 0.0,
+        library: Path | None = None,
+        skin_map: SkinMap | None = None,
+    ) -> None:
         self.config = config
-        self._library = _library()
+        self._library = _library(library or library_path(_LIBRARY))
         taxels = config.rows * config.cols
         self._indices = np.zeros(taxels, dtype=np.uint16)
         self._counts = np.zeros(taxels, dtype=np.uint16)
@@ -147,22 +151,22 @@ class PythonSampler:
 
 
 def sampler_of(
-    config: SamplingConfig, noise_counts: float, skin_map: SkinMap | None = None
+    config: SamplingConfig, noise_counts: float = 0.0, skin_map: SkinMap | None = None
 ) -> BoardSampler | PythonSampler:
     """The firmware's sampler if it has the scheme, else Python's."""
     in_firmware = any(line.split("\t")[0] == config.scheme for line in scheme_table().splitlines())
-    return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts, skin_map)
+    return (BoardSampler if in_firmware else PythonSampler)(config, noise_counts, skin_map=skin_map)
 
 
-def scheme_table() -> str:
+def scheme_table(library: Path | None = None) -> str:
     """Table of the firmware's schemes; see `acts_sampler_schemes` in acts_firmware/host."""
-    table: bytes = _library().acts_sampler_schemes()
+    table: bytes = _library(library or library_path(_LIBRARY)).acts_sampler_schemes()
     return table.decode()
 
 
 def firmware_takes(scheme: int, rows: int, cols: int, m: int) -> bool:
     """Whether the firmware supports a scheme, by its number, with `m` taxels per frame."""
-    return bool(_library().acts_sampler_takes(scheme, rows, cols, m))
+    return bool(_library(library_path(_LIBRARY)).acts_sampler_takes(scheme, rows, cols, m))
 
 
 def _check_frames(config: SamplingConfig, frames: NDArray[np.uint16]) -> None:
