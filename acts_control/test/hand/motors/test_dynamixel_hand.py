@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, leave_at, reading_where
-from dynamixel_sdk import COMM_RX_TIMEOUT, COMM_SUCCESS, PortHandler, Protocol2PacketHandler
+from dynamixel_bus import DEADLINE_S, Bus, leave_at, reading_where
+from dynamixel_sdk import COMM_RX_TIMEOUT, Protocol2PacketHandler
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
-from acts_control.hand.motors.dynamixel_table import D_GAIN, P_GAIN, Register
+from acts_control.hand.motors.dynamixel_table import Register
 from acts_core.errors import SettingsError
 
 pytestmark = pytest.mark.slow
@@ -279,44 +279,6 @@ def test_gains_beyond_what_a_motor_takes_are_refused_with_their_joint() -> None:
         with pytest.raises(SettingsError, match=told):
             DynamixelHand(hand, DynamixelConfig(**gain))
     DynamixelHand(hand, DynamixelConfig(position_p_gain=2047, position_i_gain=16383))
-
-
-def test_a_number_that_does_not_fit_its_register_is_not_sent(bus: Bus) -> None:
-    port = DynamixelPort(DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS))
-    port.open()
-    try:
-        for number in (-1, 65536):
-            told = rf"motor 2 \(index_pip\): {number} does not fit in register 84, which takes 0 to 65535"
-            with pytest.raises(HandError, match=told):
-                port.write(LEAP_RIGHT.joints[2], P_GAIN, number)
-        port.write(LEAP_RIGHT.joints[2], P_GAIN, 16383)
-        assert port.read(LEAP_RIGHT.joints[2], P_GAIN) == 16383
-    finally:
-        port.close()
-
-
-def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
-    bus: Bus, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # As dynamixel_sdk 4.0, which ROS has: it takes nothing out of the port.
-    monkeypatch.setattr(PortHandler, "clearPort", lambda port: port.ser.flush())
-    port = DynamixelPort(DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS))
-    port.open()
-    try:
-        motor = LEAP_RIGHT.joints[2]
-        port.write(motor, P_GAIN, 500)
-        port.write(motor, D_GAIN, 200)
-        line = port._port
-        assert line is not None
-        # A request whose answer nobody waits for.
-        assert port._packets.readTx(line, motor.motor_id, *P_GAIN) == COMM_SUCCESS
-        line.is_using = False
-        deadline_s = time.monotonic() + DEADLINE_S
-        while line.ser.in_waiting < 13:  # 11 bytes, and the value
-            assert time.monotonic() < deadline_s, "no answer"
-        assert port.read(motor, D_GAIN) == 200
-    finally:
-        port.close()
 
 
 def test_a_joint_beyond_its_limit_stays_there_until_it_is_sent_back_and_does_not_jump(bus: Bus) -> None:
