@@ -66,6 +66,21 @@ class Drift(NamedTuple):
     largest: float
 
 
+class Tare(NamedTuple):
+    """A tare: the baseline since then, and how many taxels were not still while it was measured."""
+
+    baseline: Baseline
+    unsteady: int
+
+    def __str__(self) -> str:
+        """What was done, for the one who asked for it."""
+        valid = self.baseline.valid
+        done = f"tared {int(valid.sum())} of {valid.size} taxels"
+        if not self.unsteady:
+            return done
+        return f"{done}, but {self.unsteady} of them changed meanwhile: keep what lies on the skin still and tare again"
+
+
 class _Block:
     """Statistics of every taxel over some time."""
 
@@ -197,7 +212,7 @@ class BaselineTracker:
             )
             return self._present()
 
-    def tare(self) -> Baseline:
+    def tare(self) -> Tare:
         """Tare: set the baseline to the present readings, whatever lies on the skin; noise stays as it is.
 
         Taxels without a recent reading keep their baseline.
@@ -214,6 +229,7 @@ class BaselineTracker:
                 )
             readings = _readings([self._blocks[self._growing], self._blocks[self._growing - 1]])
             measured = readings.n > 0
+            unsteady = self._beside_others(readings.span > self.config.touch_counts)
             known = self._freeze >= 0
             self._set(
                 np.where(measured, readings.mean, self._baseline),
@@ -221,7 +237,7 @@ class BaselineTracker:
                 measured | known,
                 BaselineSource.TARE,
             )
-            return self._present()
+            return Tare(self._present(), int(unsteady.sum()))
 
     def present(self) -> Baseline | None:
         """The baseline now; None where there is none."""
@@ -304,7 +320,10 @@ class BaselineTracker:
         """Taxels that were pressed, or let go, in the time of these readings. One alone is a broken taxel, no touch."""
         known = np.where(self._freeze >= 0, self._baseline, 0.0)
         limit = self.config.touch_counts
-        suspicious = (readings.n > 0) & ((readings.mean - known > limit) | (readings.span > limit))
+        return self._beside_others((readings.n > 0) & ((readings.mean - known > limit) | (readings.span > limit)))
+
+    def _beside_others(self, suspicious: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Those of these taxels that are not alone."""
         grid = np.pad(suspicious.reshape(self._shape), 1).astype(np.int64)
         rows, cols = self._shape
         around = sum(grid[r : r + rows, c : c + cols] for r in range(3) for c in range(3))

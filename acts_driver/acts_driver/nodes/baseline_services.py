@@ -149,11 +149,11 @@ class BaselineServices:
     def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             self._require_frames()
-            baseline = self._tracker.tare()
+            tare = self._tracker.tare()
         except ActsError as error:
             return self._answer(response, False, str(error))
-        self._publish(baseline)
-        return self._answer(response, True, f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels")
+        self._publish(tare.baseline)
+        return self._answer(response, True, str(tare))
 
     def _require_frames(self) -> None:
         """Raise where no frames arrive: the remembered ones do not show the present skin."""

@@ -136,7 +136,9 @@ def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
     skin.run(2.0)
     noise = skin.tracker.calibrate().noise_counts
     skin.run(1.0, skin.pressed())
-    tared = skin.tracker.tare()
+    tare = skin.tracker.tare()
+    assert str(tare) == "tared 30 of 30 taxels"
+    tared = tare.baseline
     assert np.abs(tared.counts - skin.pressed()).max() < 2
     assert (tared.noise_counts == noise).all()
     assert tared.source is BaselineSource.TARE
@@ -147,6 +149,22 @@ def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
     assert present is not None
     assert np.abs(present.counts[2:4, 2:4] - 420).max() < 2
     assert skin.tracker.below() == 4
+
+
+def test_a_tare_tells_what_moved_meanwhile() -> None:
+    skin = Skin()
+    skin.run(2.0)
+    skin.run(0.1, skin.pressed())
+    skin.run(0.1)
+    told = "tared 30 of 30 taxels, but 4 of them changed meanwhile: keep what lies on the skin still and tare again"
+    assert str(skin.tracker.tare()) == told
+    skin.run(0.5)
+    assert skin.tracker.tare().unsteady == 0
+    # A single taxel that jumps is broken.
+    broken = skin.field.copy()
+    broken[1, 1] = 500
+    skin.run(0.1, broken)
+    assert skin.tracker.tare().unsteady == 0
 
 
 def test_drift_is_followed_but_not_where_the_skin_is_touched() -> None:

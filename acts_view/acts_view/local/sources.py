@@ -281,13 +281,13 @@ class BoardSource:
                 f"no frames for {silent_s:.1f} s: the line of the driver tells why; tare when they are back"
             )
         try:
-            baseline = self._tracker.tare()
+            tare = self._tracker.tare()
         except ActsError as error:
             raise ViewRequestError(str(error)) from error
-        self.skin.set_baseline(baseline)
+        self.skin.set_baseline(tare.baseline)
         if self._feed is not None:
-            self._feed.set_baseline(baseline)
-        return f"tared {int(baseline.valid.sum())} of {baseline.valid.size} taxels"
+            self._feed.set_baseline(tare.baseline)
+        return str(tare)
 
     def _begin(self, _skins: Sequence[str], bag: BoundedBag) -> Feed:
         # Imported here, because it is slow to import and few record.
