@@ -15,7 +15,7 @@ import pytest
 from view_browser import DEADLINE_MS, expect, needs_browser
 from view_player import Player
 
-from acts_view.skin.snapshot import Frame, RegionState
+from acts_view.skin.snapshot import Frame, RegionState, SkinShape
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -33,6 +33,38 @@ def centred(frame: Frame) -> Frame:
     ball = {**frame.ball, "ball": [SMALL, SMALL], "tilt_measured": [SMALL, SMALL]}
     hand = {**frame.hand, "joints": [["index_mcp", SMALL]]}
     return replace(frame, touch=(SMALL, SMALL, 1.25, 800.0, 1.9e-5), ball=ball, hand=hand)
+
+
+def test_a_ball_its_reference_and_the_tilt_of_the_plate(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    page.wait_for_selector(".ball h3")
+    assert page.inner_text(".ball h3") == "Ball balancing · segment B"
+    shown = {name: page.inner_text(f"[data-ball={name}]") for name in ("ball", "reference", "off", "tilt")}
+    assert shown == {"ball": "19.7, 32.8", "reference": "22.7, 36.8", "off": "5.0", "tilt": "4.30, 0.00"}
+    # About x the plate goes down along -y, which is down on the page; about y, to the left.
+    dots = {
+        name: [page.get_attribute(f".level .{name}", one) for one in ("cx", "cy")] for name in ("measured", "commanded")
+    }
+    assert dots == {"measured": ["0.000", "0.500"], "commanded": ["-1.000", "0.000"]}
+
+
+def test_a_hand_has_its_own_shape_and_its_regions(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play(("/hand",), SkinShape(layout="leap_right")))
+    page.wait_for_selector(".regions li")
+    assert page.locator(".regions h3").first.inner_text() == "Hand holding · slip"
+    assert page.inner_text(".regions .joints").split("\n") == ["index mcp", "45", "thumb tip", "-10"]
+    assert page.inner_text(".regions .note") == "Reflexes so far: slip 3 ×"
+    slipping = page.locator(".regions li[data-slipping=true]")
+    assert slipping.inner_text().split("\n") == ["index distal", "0.75 N", "slips 3.2 mm"]
+    assert "13 patches" in page.inner_text(".shape")
+    # Between the patches there is no skin.
+    corner = page.evaluate(
+        "() => { const c = document.querySelector('canvas.taxels');"
+        " return [...c.getContext('2d').getImageData(c.width - 3, 2, 1, 1).data] }"
+    )
+    assert corner == [0, 0, 0, 0]
 
 
 def test_nothing_is_minus_zero(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
