@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,15 +26,17 @@ class Results:
         The JSON file; None for none.
     about : dict
         Further fields of the report.
+    reads : sequence of Path
+        Files that the evaluation reads.
 
     Raises
     ------
     RecordingError
-        When the file cannot be written.
+        When the file cannot be written, or is one of those that are read.
     """
 
-    def __init__(self, path: Path | None, about: dict[str, Any]) -> None:
-        require_writable(path)
+    def __init__(self, path: Path | None, about: dict[str, Any], *, reads: Sequence[Path] = ()) -> None:
+        require_writable(path, reads=reads)
         self.entries: list[dict[str, Any]] = []
         self._path = path
         self._about = about

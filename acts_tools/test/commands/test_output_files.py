@@ -73,9 +73,19 @@ def test_a_demo_writes_its_files_or_does_not_begin(
     assert f"{name}.png: cannot be written (Is a directory)" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("command", ["library", "train"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        "library -o",
+        "train -o",
+        "evaluate classification --json",
+        "evaluate gait --json",
+        "evaluate recovery --json",
+        "evaluate slip --json",
+    ],
+)
 def test_recordings_are_not_replaced_by_what_is_made_of_them(
-    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     recordings, same = tmp_path / "recordings.npz", tmp_path / "link.npz"
     frames = np.zeros((20, 16, 16), dtype=np.uint16)
@@ -83,6 +93,6 @@ def test_recordings_are_not_replaced_by_what_is_made_of_them(
     np.savez(recordings, frames=frames, start=[0, 10], length=[10, 10], label=["pen", "cup"], rate_hz=100.0)
     same.symlink_to(recordings)
     before = recordings.read_bytes()
-    assert main([command, "--frames", str(recordings), "-o", str(same)]) == 1
+    assert main([*words.split(), str(same), "--frames", str(recordings)]) == 1
     assert f"{same}: is read, and would be lost" in capsys.readouterr().err
     assert recordings.read_bytes() == before

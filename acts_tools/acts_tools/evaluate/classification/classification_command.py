@@ -73,7 +73,7 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    require_writable(arguments.json)
+    require_writable(arguments.json, reads=[arguments.frames] if arguments.frames else [])
     require_picture(arguments.picture)
     if arguments.frames:
         if arguments.picture:

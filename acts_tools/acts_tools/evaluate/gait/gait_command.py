@@ -102,7 +102,7 @@ def _run_recorded(arguments: argparse.Namespace) -> int:
     tell_if_large(arguments.frames)
     recordings = read_insoles(arguments.frames)
     about = {"frames_file": arguments.frames.name, "length_m": arguments.length_m, "width_m": arguments.width_m}
-    results = report.Results(arguments.json, about)
+    results = report.Results(arguments.json, about, reads=[arguments.frames])
     print(_RECORDED_TITLE, flush=True)
     for recording in recordings:
         found = find_steps(recording, arguments.length_m, arguments.width_m)

@@ -33,7 +33,7 @@ def _run(arguments: argparse.Namespace) -> int:
     tasks = options.tasks(arguments)
     dictionary = options.dictionary(arguments)
     live = np.ones((32, 32), dtype=bool)
-    results = report.Results(arguments.json, options.as_report(arguments))
+    results = options.results(arguments, recordings=arguments.recordings)
     require_methods(tasks, dictionary)
     print(f"{'event':13} {HEADER} {'further p99':>11}")
     for name in arguments.event:

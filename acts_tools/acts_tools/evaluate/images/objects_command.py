@@ -68,7 +68,7 @@ def _run(arguments: argparse.Namespace) -> int:
     pairs.append((arguments.ours, "tracking"))
     options.require_frames((scheme, m) for m in arguments.m for _, scheme in pairs)
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
-    results = report.Results(arguments.json, options.as_report(arguments))
+    results = options.results(arguments, objects=arguments.objects, presses=arguments.presses)
     require_picture(arguments.picture)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]

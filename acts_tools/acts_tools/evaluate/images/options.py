@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from acts_core.errors import SettingsError
@@ -15,6 +16,7 @@ from acts_core.settings import SettingValue, default_of, describe, from_text, un
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
 from acts_tools.arguments import taxels
+from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
 from acts_tools.evaluate.images.recovery import Task
@@ -166,8 +168,16 @@ def require_frames(pairs: Iterable[tuple[str, int]], shape: tuple[int, ...] = (3
         )
 
 
-def as_report(arguments: argparse.Namespace) -> dict[str, object]:
-    """The arguments, for a report."""
+def results(arguments: argparse.Namespace, **about: object) -> report.Results:
+    """The report, which begins with `about` and the arguments.
+
+    Raises
+    ------
+    RecordingError
+        When its file cannot be written, or is the recording or the dictionary.
+    """
     own = (setting.parameter for setting in OWN_SETTINGS)
     used = {name: getattr(arguments, name) for name in (*describe(Task), *own, "search_counts", "seed")}
-    return {**used, "dictionary": arguments.dictionary or "shipped", "set": dict(arguments.set)}
+    about = {**about, **used, "dictionary": arguments.dictionary or "shipped", "set": dict(arguments.set)}
+    reads = [Path(name) for name in (getattr(arguments, "frames", None), arguments.dictionary) if name]
+    return report.Results(arguments.json, about, reads=reads)

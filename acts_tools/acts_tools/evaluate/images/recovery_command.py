@@ -17,7 +17,6 @@ from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
 from acts_sim.pressing import OBJECTS
 from acts_tools.arguments import at_least_one, refuse_unused
-from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
@@ -58,8 +57,7 @@ def _run(arguments: argparse.Namespace) -> int:
         _tell_without_contact(arguments.frames, recordings, tasks[0].touch_counts)
     dictionary = options.dictionary(arguments)
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
-    about = {"frames_file": source, **options.as_report(arguments)}
-    results = report.Results(arguments.json, about)
+    results = options.results(arguments, frames_file=source, peaks=arguments.peaks, every=arguments.every)
     evaluate_all(recordings, tasks, dictionary, results)
     if not any(entry["frames"] or entry["onset"]["frames"] for entry in results.entries):
         raise RecordingError(

@@ -165,7 +165,7 @@ def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    results = report.Results(arguments.json, {"frames": str(arguments.frames)})
+    results = report.Results(arguments.json, {"frames": str(arguments.frames)}, reads=[arguments.frames])
     require_picture(arguments.picture)
     config = SlipConfig(**{name: getattr(arguments, name) for name in describe(SlipConfig)})
     tell_if_large(arguments.frames)
