@@ -38,6 +38,9 @@ COMMANDS = {
 }
 """Module and summary of every subcommand; the module has ``add_parser(subparsers)`` and ``run(arguments) -> int``."""
 
+_OF_NAMES = (errno.EACCES, errno.ELOOP, errno.ENAMETOOLONG, errno.EROFS)
+"""What is wrong with a path that somebody gave, not with the command."""
+
 _EPILOG = """\
 examples:
   acts demo ball_balancing                                          see the whole chain at work, no hardware needed
@@ -87,11 +90,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+        # Any file may be the one that fills the disk, or that has a name that cannot be; where a command does not say
+        # which, neither can this.
+        is_full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        if not is_full and error.errno not in _OF_NAMES:
             raise
-        # Any file may be the one that fills the disk; where a command does not say which, neither can this.
         about = f"{error.filename}: " if error.filename else ""
-        print(f"error: {about}{error.strerror}: make room and try again", file=sys.stderr)
+        print(f"error: {about}{error.strerror}{': make room and try again' if is_full else ''}", file=sys.stderr)
         return 1
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import tempfile
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -55,18 +56,20 @@ def require_writable(path: Path | None, *, makes_folder: bool = False, reads: Se
     """
     if path is None:
         return
-    if any(path.exists() and other.exists() and path.samefile(other) for other in reads):
-        raise RecordingError(f"{path}: is read, and would be lost if the result were written there; give another name")
-    if makes_folder:
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise RecordingError(f"{path}: its folder cannot be made ({error.strerror})") from error
-    is_new = not path.exists()
+    # What cannot be looked at is told of below, or by who reads it.
+    with suppress(OSError):
+        if any(path.exists() and other.exists() and path.samefile(other) for other in reads):
+            raise RecordingError(
+                f"{path}: is read, and would be lost if the result were written there; give another name"
+            )
     try:
+        if makes_folder:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        is_new = not path.exists()
         path.open("ab").close()
         if is_new:
-            path.unlink()
+            # A link to a file that does not exist yet stays.
+            path.resolve().unlink()
     except OSError as error:
         raise RecordingError(
             f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"

@@ -71,6 +71,27 @@ def test_a_full_disk_is_told_in_one_line(
     assert capsys.readouterr().err == f"error: {about}No space left on device: make room and try again\n"
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "export {} --to csv",
+        "record -a -o {}",
+        "train -o out.npz --frames {}",
+        "evaluate convert slips {} -o out.npz",
+        "launch --own {}",
+        "doctor --root {}",
+        "selftest {}",
+    ],
+)
+def test_a_name_that_is_too_long_is_told_in_one_line(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(words.format("a" * 300).split()) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert re.fullmatch(r"error: \S*a{300}\S*: File name too long", line)
+
+
 def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def import_numpy() -> int:
         try:

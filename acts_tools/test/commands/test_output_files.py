@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,24 @@ def test_a_folder_is_no_file_to_write(words: list[str], tmp_path: Path, capsys: 
     assert main([*words, str(folder)]) == 1
     assert f"{folder}: cannot be written (Is a directory)" in capsys.readouterr().err
     assert list(tmp_path.rglob("*")) == [folder]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: " ".join(words))
+def test_a_name_that_is_too_long_is_told_in_one_line(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"{'a' * 300}.png"
+    assert main([*words, str(path)]) == 1
+    assert f"error: {path}: cannot be written (File name too long)" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_link_to_a_file_that_is_not_there_yet_stays(tmp_path: Path) -> None:
+    link, report = tmp_path / "link.json", tmp_path / "report.json"
+    link.symlink_to(report)
+    assert main(["evaluate", "gait", "--seeds", "1", "--rate", "8", "--json", str(link)]) == 0
+    assert link.is_symlink()
+    assert json.loads(report.read_text())["results"]
 
 
 def test_a_file_is_no_folder_to_write_into(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
