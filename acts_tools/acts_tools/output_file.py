@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
+from acts_core.files import write_whole
 
 _PICTURES = (".png", ".svg", ".pdf")
 
@@ -87,7 +88,7 @@ def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
 
 
 def write_json(path: Path | None, report: Mapping[str, Any]) -> None:
-    """Write a report, unless `path` is None.
+    """Write a report as a whole or not at all, unless `path` is None.
 
     Raises
     ------
@@ -97,6 +98,9 @@ def write_json(path: Path | None, report: Mapping[str, Any]) -> None:
     if path is None:
         return
     try:
-        path.write_text(json.dumps(report, indent=2) + "\n")
+        # What is a pipe, or a device as /dev/stdout, cannot be replaced by a new file.
+        is_stream = path.exists() and not path.is_file()
+        with path.open("wb") if is_stream else write_whole(path, error=RecordingError) as file:
+            file.write(f"{json.dumps(report, indent=2)}\n".encode())
     except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error

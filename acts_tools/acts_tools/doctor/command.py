@@ -13,6 +13,7 @@ from pathlib import Path
 from acts_core.errors import ActsError
 from acts_tools.doctor.machine import Machine
 from acts_tools.doctor.report import examine
+from acts_tools.output_file import write_json
 
 _EPILOG = """\
 levels:
@@ -46,9 +47,5 @@ def run(arguments: argparse.Namespace) -> int:
         raise ActsError(f"--root {arguments.root}: is no folder")
     diagnosis = examine(Machine(root=arguments.root), realtime=arguments.realtime)
     print(diagnosis.text(coloured=sys.stdout.isatty() and "NO_COLOR" not in os.environ))
-    if arguments.json is not None:
-        try:
-            arguments.json.write_text(diagnosis.to_json())
-        except OSError as error:
-            raise ActsError(f"{arguments.json}: cannot be written ({error.strerror})") from error
+    write_json(arguments.json, diagnosis.as_json())
     return 0 if diagnosis.is_well else 1

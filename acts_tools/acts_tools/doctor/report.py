@@ -6,9 +6,9 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from acts_core.words import counted
 from acts_tools.doctor import cores, memory, network, ports, scheduling
@@ -84,10 +84,10 @@ class Diagnosis:
         rest = f"; {counted(notes, 'note')} on what could be better" if notes else ""
         return f"this machine has what {what} needs{rest}"
 
-    def to_json(self) -> str:
+    def as_json(self) -> dict[str, Any]:
         """The report for a program."""
         findings = [{**dataclasses.asdict(finding), "level": _WORDS[finding.level]} for finding in self.findings]
-        return json.dumps({"ok": self.is_well, "realtime": self.realtime, "findings": findings}, indent=2) + "\n"
+        return {"ok": self.is_well, "realtime": self.realtime, "findings": findings}
 
 
 def examine(machine: Machine, *, realtime: bool = False) -> Diagnosis:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.files import write_whole
 
 _SHORTEST_S = 1.0
 
@@ -56,9 +57,6 @@ def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz
     missing = round(_SHORTEST_S * rate_hz) - len(frames)
     if missing > 0 and np.array_equal(frames[-1], frames[0]):
         frames = np.concatenate((frames, np.repeat(frames[:1], missing, axis=0)))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        np.save(path, frames)
-    except OSError as error:
-        raise RecordingError(f"--recordings {folder}: cannot be written ({error.strerror})") from error
+    with write_whole(path, error=RecordingError, makes_folder=True) as file:
+        np.save(file, frames)
     print(f"{path}: {len(frames) / rate_hz:.2f} s, recording_rate_hz:={rate_hz:g}", flush=True)

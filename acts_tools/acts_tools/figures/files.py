@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -52,14 +53,13 @@ def write_csv(path: Path, command: str, header: Sequence[str], rows: Sequence[Se
     RecordingError
         When it cannot be written.
     """
-    try:
-        with path.open("w", newline="") as file:
-            file.write(f"# {command}\n")
-            writer = csv.writer(file)
-            writer.writerow(header)
-            writer.writerows([_short(value) for value in row] for row in rows)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+    text = io.StringIO()
+    text.write(f"# {command}\n")
+    writer = csv.writer(text)
+    writer.writerow(header)
+    writer.writerows([_short(value) for value in row] for row in rows)
+    with write_whole(path, error=RecordingError) as file:
+        file.write(text.getvalue().encode())
 
 
 def _short(value: Any) -> Any:

@@ -19,7 +19,7 @@ from acts_core.array import MAX_SIDE
 from acts_core.errors import ActsError
 from acts_core.words import counted
 from acts_tools.arguments import real, refuse_unused, whole
-from acts_tools.output_file import require_picture, require_writable
+from acts_tools.output_file import require_picture, require_writable, write_json
 
 if TYPE_CHECKING:
     from acts_driver.selftest import FrameRecord
@@ -96,14 +96,11 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.selftest.picture import draw
 
     print(test.text())
-    path = arguments.json
+    write_json(arguments.json, test.as_json())
     try:
-        if path is not None:
-            path.write_text(test.to_json())
-        path = arguments.picture
-        draw(test, path)
+        draw(test, arguments.picture)
     except OSError as error:
-        raise ActsError(f"{path}: cannot be written ({error.strerror})") from error
+        raise ActsError(f"{arguments.picture}: cannot be written ({error.strerror})") from error
     print(f"picture: {arguments.picture}")
     return 1 if test.level is Level.FAIL else 0
 

@@ -1,11 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Result of a self-test, as text and as JSON."""
+"""Result of a self-test, as text and for JSON."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -55,11 +54,11 @@ class SelfTest:
                 lines.append(f"{'':{_WIDTH + 6}} -> {finding.advice}")
         return "\n".join([*lines, "", self.verdict])
 
-    def to_json(self) -> str:
+    def as_json(self) -> dict[str, Any]:
         """The report for a program; maps are lists of rows, with null for unknown values."""
         timing = self.timing
         late_us = timing.late_us
-        content: dict[str, Any] = {
+        return {
             "ok": self.level is not Level.FAIL,
             "level": self.level.name,
             "board": self.board,
@@ -83,7 +82,6 @@ class SelfTest:
             "response_counts": None if self.touch is None else _map(self.touch.response_counts),
             "thresholds": asdict(self.thresholds),
         }
-        return json.dumps(content, indent=1) + "\n"
 
 
 def _number(value: float) -> float | None:

@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +88,18 @@ def test_the_number_of_images_is_known_beforehand(m: int, rate_hz: float, n: int
     result = evaluate(recordings, task, cosine_dictionary(), shown.append)
     assert abs(images(recordings, task) - result["frames"]) <= len(recordings)
     assert shown == list(range(500, result["frames"] + 1, 500))
+
+
+def test_a_disk_that_is_full_leaves_the_results_so_far(tmp_path: Path) -> None:
+    code = (
+        "import resource\nfrom pathlib import Path\nfrom acts_tools.evaluate.report import Results\n"
+        "results = Results(Path('out.json'), {})\nresults.add({'m': 1})\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\nresults.add({'more': 'x' * 5000})\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "RecordingError: out.json: cannot be written (File too large)" in ended.stderr
+    assert json.loads((tmp_path / "out.json").read_text()) == {"results": [{"m": 1}]}
+    assert [path.name for path in tmp_path.iterdir()] == ["out.json"]
 
 
 def test_results_are_in_the_file_as_soon_as_they_are_there(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.files import write_whole
 from acts_core.words import counted
 from acts_tools.evaluate.public import insole, weiss
 from acts_tools.output_file import require_writable
@@ -39,20 +40,17 @@ def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.output)
     recordings, live, rate_hz = _SETS[arguments.which](arguments.source)
     length = np.array([len(frames) for _, frames in recordings])
-    try:
-        # An open file: numpy would append .npz to any other name.
-        with arguments.output.open("wb") as file:
-            np.savez_compressed(
-                file,
-                frames=np.concatenate([frames for _, frames in recordings]),
-                rate_hz=rate_hz,
-                live=live,
-                start=np.cumsum(length) - length,
-                length=length,
-                label=np.array([label for label, _ in recordings]),
-            )
-    except OSError as error:
-        raise RecordingError(f"{arguments.output}: cannot be written ({error.strerror})") from error
+    # An open file: numpy would append .npz to any other name.
+    with write_whole(arguments.output, error=RecordingError) as file:
+        np.savez_compressed(
+            file,
+            frames=np.concatenate([frames for _, frames in recordings]),
+            rate_hz=rate_hz,
+            live=live,
+            start=np.cumsum(length) - length,
+            length=length,
+            label=np.array([label for label, _ in recordings]),
+        )
     print(f"{arguments.output}: {counted(len(recordings), 'recording')}, {counted(length.sum(), 'frame')}")
     return 0
 
