@@ -6,4 +6,4 @@
 __version__ = "0.1.0"
 
 INTERRUPTED = 130
-"""Exit code of the command after Ctrl-C."""
+"""Exit code of the command after Ctrl-C, SIGTERM or SIGHUP."""

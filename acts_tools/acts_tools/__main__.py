@@ -5,31 +5,48 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
+from pathlib import Path
 from types import FrameType
 
 from acts_tools import INTERRUPTED
 
+_USUAL = {
+    signal.SIGINT: signal.default_int_handler,
+    signal.SIGTERM: signal.SIG_DFL,
+    signal.SIGHUP: signal.SIG_DFL,
+}
+"""What the signals do where nobody has chosen otherwise."""
+
 
 def run() -> int:
-    """Run the acts command, and return its exit code; `INTERRUPTED` after Ctrl-C, however early."""
+    """Run the acts command, and return its exit code.
+
+    `INTERRUPTED` after Ctrl-C, SIGTERM or SIGHUP, however early: all of them end what is under way, and remove what is
+    half made.
+    """
     came = False
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         nonlocal came
         came = True
-        signal.default_int_handler(number, frame)
+        raise KeyboardInterrupt
 
     try:
-        # Where it is ignored, as in the background of a script, it stays so.
-        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-            signal.signal(signal.SIGINT, interrupt)
+        for number, usual in _USUAL.items():
+            # Where it is ignored, as Ctrl-C in the background of a script or SIGHUP under nohup, it stays so.
+            if signal.getsignal(number) is usual:
+                signal.signal(number, interrupt)
         # Who started this may have kept it back until now, as acts_tools/bin/acts does.
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _USUAL)
         from acts_tools.cli import main
 
-        return main()
+        with Path(os.devnull).open("w") as nobody:
+            # None where who started this has closed them: that nobody reads what is told is no error.
+            sys.stdout, sys.stderr = sys.stdout or nobody, sys.stderr or nobody
+            return main()
     except KeyboardInterrupt:
         return INTERRUPTED
     except Exception:

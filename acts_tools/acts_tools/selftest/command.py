@@ -6,13 +6,10 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from acts_core.array import MAX_SIDE
@@ -88,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
         refuse_unused(arguments, "with --no-touch", "touch_s")
     require_writable(arguments.json, makes_folder=True)
     require_picture(arguments.picture, makes_folder=True)
-    with _ended_by_signals(), ExitStack() as stack:
+    with ExitStack() as stack:
         skin = _simulated(arguments, stack) if arguments.sim else None
         test = _test(arguments, skin)
     # Imported here, because matplotlib takes a second.
@@ -189,18 +186,3 @@ class _Countdown:
         if self._is_watched and left != self._told:
             self._told = left
             print(f"\r{left:3d} s ", end="" if left > 0 else "\r", file=sys.stderr, flush=True)
-
-
-@contextmanager
-def _ended_by_signals() -> Iterator[None]:
-    """Let stop signals raise an exception, like Ctrl-C, so that the board gets its settings back."""
-
-    def unwind(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    before = {number: signal.signal(number, unwind) for number in (signal.SIGTERM, signal.SIGHUP)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 from fake_prefix import Prefix
 
+from acts_core.stop_signals import STOP_SIGNALS
 from acts_tools import INTERRUPTED, __version__
 from acts_tools.__main__ import run
 from acts_tools.cli import COMMANDS, main
@@ -92,20 +93,56 @@ def test_a_name_that_is_too_long_is_told_in_one_line(
     assert re.fullmatch(r"error: \S*a{300}\S*: File name too long", line)
 
 
-def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("number", STOP_SIGNALS)
+def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(
+    number: signal.Signals, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def import_numpy() -> int:
         try:
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(number)
         except KeyboardInterrupt:
             raise ImportError("we have compiled some common reasons") from None
         return 0
 
     monkeypatch.setattr("acts_tools.cli.main", import_numpy)
-    handler = signal.getsignal(signal.SIGINT)
+    handlers = {number: signal.getsignal(number) for number in STOP_SIGNALS}
     try:
         assert run() == INTERRUPTED
     finally:
-        signal.signal(signal.SIGINT, handler)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+@pytest.mark.parametrize("number", STOP_SIGNALS)
+def test_a_signal_leaves_nothing_that_is_half_made(number: signal.Signals, tmp_path: Path) -> None:
+    # The reader never comes, so that the command is in the middle of its work for as long as the test takes.
+    pipe = tmp_path / "frames.npz"
+    os.mkfifo(pipe)
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom unittest import mock\nfrom acts_core.errors import ActsError\n"
+        "from acts_core.files import write_whole\nfrom acts_tools.__main__ import run\n"
+        "def work(_):\n"
+        "    with write_whole(Path('out'), error=ActsError) as file:\n"
+        "        print('begun', flush=True)\n"
+        f"        Path({str(pipe)!r}).read_bytes()\n"
+        "sys.argv = ['acts', 'doctor']\nwith mock.patch('acts_tools.doctor.command.run', work):\n    sys.exit(run())\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"begun\n"
+        process.send_signal(number)
+        assert process.wait(60.0) == INTERRUPTED
+    assert list(tmp_path.iterdir()) == [pipe]
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
+def test_a_command_works_where_nobody_listens(closed: str, tmp_path: Path) -> None:
+    command = f'"{sys.executable}" -m acts_tools'
+    doctor = f"{command} doctor --json report.json {closed}"
+    assert subprocess.run(["sh", "-c", doctor], cwd=tmp_path, check=False, capture_output=True).returncode in (0, 1)
+    assert (tmp_path / "report.json").is_file()
+    gait = f"{command} evaluate gait --seeds 1 --rate 8 {closed}"
+    assert subprocess.run(["sh", "-c", gait], cwd=tmp_path, check=False, capture_output=True).returncode == 0
 
 
 def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
