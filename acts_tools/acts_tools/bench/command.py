@@ -60,7 +60,12 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         report = _measure(arguments)
     form = skins_table if "skins" in report else reports
-    print(form.markdown(report) if arguments.markdown else form.table(report))
+    try:
+        text = form.markdown(report) if arguments.markdown else form.table(report)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        # What was measured just now has all that a table needs.
+        raise ActsError(f"--show {arguments.show}: not a report of `acts bench` of this version ({error!r})") from error
+    print(text)
     return 1 if report["problems"] else 0
 
 
@@ -91,8 +96,11 @@ def _file(arguments: argparse.Namespace, name: str) -> Path:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return dict(json.loads(path.read_text()))
+        report = json.loads(path.read_text())
     except OSError as error:
         raise ActsError(f"--show {path}: cannot be read ({error.strerror})") from error
     except ValueError as error:
         raise ActsError(f"--show {path}: not a report of `acts bench` ({error})") from error
+    if not isinstance(report, dict):
+        raise ActsError(f"--show {path}: not a report of `acts bench`")
+    return report

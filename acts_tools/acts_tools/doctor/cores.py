@@ -46,7 +46,7 @@ def core_clock(machine: Machine) -> Finding:
     name = "core clock"
     governors: Counter[str] = Counter()
     for path in machine.found("sys/devices/system/cpu/cpu[0-9]*/cpufreq/scaling_governor"):
-        governors[path.read_text().strip()] += 1
+        governors[machine.text(str(path.relative_to(machine.root))) or "unknown"] += 1
     if not governors:
         return unknown(name, "cpufreq in /sys/devices/system/cpu, as in most virtual machines", for_realtime=True)
     if set(governors) == {"performance"}:

@@ -97,9 +97,16 @@ def test_an_earlier_report_is_shown_again(tmp_path: Path, capsys: pytest.Capture
     path.write_text(json.dumps(REPORT))
     assert main(["bench", "--show", str(path)]) == 1
     assert "123457 frames/s" in capsys.readouterr().out
-    path.write_text("{")
+
+
+@pytest.mark.parametrize("text", ["{", "[1, 2]", "{}", '{"measurements": 3}', '{"skins": [], "problems": []}'])
+def test_what_is_no_report_is_not_shown(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "bench.json"
+    path.write_text(text)
     assert main(["bench", "--show", str(path)]) == 1
-    assert "not a report of `acts bench`" in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert said.err.startswith(f"error: --show {path}: not a report of")
+    assert said.out == ""
 
 
 def test_own_work_is_not_counted_as_that_of_others() -> None:

@@ -122,6 +122,10 @@ CASES = [
         {"sys/devices/system/cpu/cpu1/cpufreq/scaling_governor": "powersave"}, for_realtime=True,
     ),
     Case(
+        "core clock", NOTE, "performance on 2, unknown on 1", "cpupower",
+        {"sys/devices/system/cpu/cpu2/cpufreq/scaling_governor/is/a_folder": ""}, for_realtime=True,
+    ),
+    Case(
         "core clock", UNKNOWN, "virtual machines", "",
         {f"sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor": None for core in (0, 1)},
     ),

@@ -154,6 +154,7 @@ def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: p
         ({"start": [0], "length": [5]}, "beyond the 4 frames"),
         ({"start": [-1], "length": [2]}, "do not fit"),
         ({"start": [0.5], "length": [2]}, "do not fit"),
+        ({"start": [0, 2], "length": [0, 0]}, "all recordings have the length 0"),
     ],
 )
 def test_files_that_do_not_fit_are_refused(tmp_path: Path, change: dict[str, Any], message: str) -> None:

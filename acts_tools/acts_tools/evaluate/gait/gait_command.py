@@ -13,8 +13,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from acts_core.errors import RecordingError
 from acts_recon.gait import FEET, GaitConfig
 from acts_tools.arguments import real, refuse_unused
@@ -112,7 +110,7 @@ def _run_recorded(arguments: argparse.Namespace) -> int:
     feet = [foot for entry in results.entries for foot in entry["feet"].values()]
     if not any(foot["steps"] or foot["curve_steps"] for foot in feet):
         frames: list[Any] = [one.frames for one in recordings]
-        least, most = (extreme([float(extreme(one)) for one in frames]) for extreme in (np.min, np.max))
+        least, most = min(float(one.min()) for one in frames), max(float(one.max()) for one in frames)
         raise RecordingError(
             f"{arguments.frames}: nothing could be compared, since neither a step is found nor does the force curve "
             f"show one; frames hold {least:g} to {most:g}; needed are recordings of somebody who walks, with larger "

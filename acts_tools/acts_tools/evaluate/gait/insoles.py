@@ -49,7 +49,7 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
     Raises
     ------
     RecordingError
-        When it cannot be read, or its arrays do not fit together.
+        When it cannot be read, its arrays do not fit together, or no recording has frames.
     """
     names = ("frames", "image", "t_s", "time_s", "rate_hz", "start", "length", "rec_start", "rec_len", "kind", "label")
     content = read_npz(path, names, error=RecordingError, hint=_NEEDED, limit_bytes=half_of_memory_bytes())
@@ -75,6 +75,8 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
             raise RecordingError(f"{path}: the times of recording {number} do not ascend")
         name = f"{number} {label}" if labels.dtype.kind in "SU" else str(number)
         found.append(InsoleRecording(name, time_s[part], frames[part]))
+    if not found:
+        raise RecordingError(f"{path}: all recordings have the length 0: {_NEEDED}")
     return found
 
 
