@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
 from dataclasses import asdict
 from typing import TYPE_CHECKING
@@ -63,21 +64,25 @@ def run(arguments: argparse.Namespace) -> int:
 
     with StopFlag() as stop, command_node("acts_listener") as (node, executor):
         listener = Listener(node, topics)
-        heard: set[str] = set()
         begin_s = time.monotonic()
-        end_s = None if arguments.duration is None else begin_s + arguments.duration
+        end_s = math.inf if arguments.duration is None else begin_s + arguments.duration
         report_s = begin_s + arguments.every
-        while not stop.is_set and (end_s is None or time.monotonic() < end_s):
+        is_over = False
+        while not is_over:
             listener.discover()
-            turn_s = min(report_s - time.monotonic(), 0.1)
-            spin_for(executor, max(turn_s, 0.001))
+            turn_s = min(report_s, end_s) - time.monotonic()
+            spin_for(executor, min(max(turn_s, 0.001), 0.1))
             now_s = time.monotonic()
-            if now_s >= report_s:
+            is_over = stop.is_set or now_s >= end_s
+            # The last report is of what has come since the one before, however short that was.
+            if is_over or now_s >= report_s:
                 report_s += arguments.every
+                if report_s <= now_s:
+                    # The machine stood still: no reports of intervals that have passed.
+                    report_s = now_s + arguments.every
                 intervals = {topic: arrivals.take(now_s) for topic, arrivals in listener.arrivals.items()}
-                heard |= {topic for topic, interval in intervals.items() if interval.total_received}
                 _print(topics, intervals, listener, now_s, as_json=arguments.json)
-    return 0 if len(heard) == len(topics) else 1
+    return 0 if all(topic in intervals and intervals[topic].total_received for topic in topics) else 1
 
 
 def _print(

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -144,28 +145,69 @@ def test_who_hears_nothing_is_told(talker: Node) -> None:
     assert "/nobody  no publisher found yet" in finished.stdout
 
 
-def test_the_duration_begins_when_it_listens(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    now_s = 0.0
+@dataclass
+class Clock:
+    """The time that the command sees [s]."""
+
+    now_s: float = 0.0
+
+    def go_on(self, seconds: float) -> None:
+        self.now_s += seconds
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    """A clock that goes on by 5 s where ROS starts, and by what the command waits."""
+    clock = Clock()
 
     @contextmanager
     def slowly_made(_name: str) -> Iterator[tuple[None, None]]:
-        nonlocal now_s
-        now_s += 5.0
+        clock.go_on(5.0)
         yield None, None
 
-    def spin_for(_executor: None, seconds: float) -> None:
-        nonlocal now_s
-        now_s += seconds
-
     monkeypatch.setattr("acts_tools.running.node.command_node", slowly_made)
-    monkeypatch.setattr("acts_ros.executor.spin_for", spin_for)
+    monkeypatch.setattr("acts_ros.executor.spin_for", lambda _executor, seconds: clock.go_on(seconds))
     monkeypatch.setattr("acts_tools.listen.listener.Listener.discover", lambda _self: None)
-    monkeypatch.setattr("acts_tools.listen.command.time", SimpleNamespace(monotonic=lambda: now_s))
+    monkeypatch.setattr("acts_tools.listen.command.time", SimpleNamespace(monotonic=lambda: clock.now_s))
+    return clock
+
+
+def test_the_duration_begins_when_it_listens(clock: Clock, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["listen", "-d", "0.35", "--every", "0.1", "/nobody"]) == 1
     assert set(capsys.readouterr().out.splitlines()) == {"/nobody  no publisher found yet"}
-    assert now_s == pytest.approx(5.35, abs=0.1)
+    assert clock.now_s == pytest.approx(5.35, abs=0.1)
+
+
+@pytest.mark.parametrize(("words", "seconds"), [("-d 0.5", [0.5]), ("-d 2.5", [1.0, 1.0, 0.5]), ("-d 2", [1.0, 1.0])])
+def test_what_comes_after_the_last_whole_interval_is_told(
+    words: str,
+    seconds: list[float],
+    clock: Clock,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def discover(listener: Listener) -> None:
+        listener.arrivals.setdefault("/cop", Arrivals(clock.now_s)).add(clock.now_s, None, None)
+
+    monkeypatch.setattr("acts_tools.listen.listener.Listener.discover", discover)
+    assert main(["listen", *words.split(), "--json", "/cop"]) == 0
+    told = [json.loads(line)["topics"]["/cop"] for line in capsys.readouterr().out.splitlines()]
+    assert [one["seconds"] for one in told] == pytest.approx(seconds, abs=0.01)
+    assert all(one["received"] for one in told)
+
+
+def test_there_are_no_reports_of_the_time_in_which_the_machine_stood_still(
+    clock: Clock, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stand_still(listener: Listener) -> None:
+        if "/cop" not in listener.arrivals:
+            listener.arrivals["/cop"] = Arrivals(clock.now_s)
+            clock.go_on(7.0)
+
+    monkeypatch.setattr("acts_tools.listen.listener.Listener.discover", stand_still)
+    assert main(["listen", "-d", "9", "--json", "/cop"]) == 1
+    told = [json.loads(line)["topics"]["/cop"]["seconds"] for line in capsys.readouterr().out.splitlines()]
+    assert told == pytest.approx([7.0, 1.0, 1.0], abs=0.01)
 
 
 @pytest.mark.parametrize("name", ["bad topic", "", "/", "/a//b", "/1a", "/a-b", "/touché"])
