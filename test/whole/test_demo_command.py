@@ -51,8 +51,8 @@ def test_an_impossible_length_is_refused(tmp_path: Path) -> None:
         text=True,
         timeout=60,
     )
-    assert finished.returncode == 1
-    assert "--seconds 1: allowed is 5 to 600" in finished.stderr
+    assert finished.returncode == 2
+    assert "--seconds: 1: allowed is a number from 5 to 600" in finished.stderr
 
 
 def test_ctrl_c_ends_everything_that_was_started(tmp_path: Path) -> None:

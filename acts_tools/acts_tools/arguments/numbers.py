@@ -46,6 +46,9 @@ def real(lowest: float, highest: float = math.inf) -> Callable[[str], float]:
 
 at_least_one = whole(1)
 
+seconds = real(1e-3)
+"""A time for which somebody waits."""
+
 random_seed = whole(0, 2**63 - 1)
 """What random numbers begin from."""
 

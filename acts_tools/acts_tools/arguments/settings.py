@@ -1,15 +1,42 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Settings given as words ``NAME=VALUE``."""
+"""Settings given as options of their own, and as words ``NAME=VALUE``."""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Sequence
 from typing import Any
 
 from acts_core.errors import SettingsError
-from acts_core.settings import describe, from_text, unknown_key_message
+from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
+
+
+def add_settings(parser: argparse.ArgumentParser, settings_class: type, *names: str, **defaults: SettingValue) -> None:
+    """Add an option for each setting of a class; `acts_core.settings.part_of` makes the settings of the arguments.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    settings_class : type
+        Dataclass of settings, which checks their ranges.
+    *names : str
+        Only these settings; all without any.
+    **defaults
+        In place of those of the class.
+    """
+    for name, info in describe(settings_class).items():
+        if names and name not in names:
+            continue
+        default = defaults.get(name, default_of(settings_class, name))
+        parser.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=type(default),
+            default=default,
+            metavar="X",
+            help=f"{info.description} (default: %(default)s)",
+        )
 
 
 def given_settings(settings_class: type, words: Sequence[str], where: str) -> dict[str, Any]:

@@ -9,9 +9,9 @@ import argparse
 import time
 from pathlib import Path
 
-from acts_core.errors import RecordingError
 from acts_core.words import counted
 from acts_ros.bags import require_rosbags
+from acts_tools.arguments import real
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -23,12 +23,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "Reads bags of `acts record` and of ROS 2, also those whose recorder was killed.",
     )
     parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
-    parser.add_argument("-r", "--rate", type=float, default=1.0, help="speed, 2 is twice as fast (default: 1)")
+    parser.add_argument("-r", "--rate", type=real(1e-3), default=1.0, help="speed, 2 is twice as fast (default: 1)")
     parser.add_argument("-l", "--loop", action="store_true", help="start again at the end, until Ctrl-C")
     parser.add_argument("-t", "--topics", nargs="+", metavar="TOPIC", help="only these topics")
     parser.add_argument(
         "--delay",
-        type=float,
+        type=real(0.0),
         default=1.0,
         metavar="SECONDS",
         help="wait this long before the first message, so that subscribers find the topics (default: 1)",
@@ -37,10 +37,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run ``acts play``; return 0 when the bag was played to its end or until Ctrl-C."""
-    if not 0 < arguments.rate < float("inf"):
-        raise RecordingError(f"--rate {arguments.rate:g} is not a positive number")
-    if not 0 <= arguments.delay < float("inf"):
-        raise RecordingError(f"--delay {arguments.delay:g} is not a time in seconds")
     topics = None if arguments.topics is None else [f"/{name.lstrip('/')}" for name in arguments.topics]
     play(arguments.bag, arguments.rate, arguments.loop, topics, arguments.delay)
     return 0

@@ -17,6 +17,7 @@ from acts_core.names import full_name
 from acts_core.words import counted
 from acts_ros.bags import require_rosbags
 from acts_tools import __version__
+from acts_tools.arguments import seconds
 
 if TYPE_CHECKING:
     from acts_ros.bags.recorder import Recorder
@@ -36,15 +37,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
     parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to make (default: rosbag2_<time>)")
-    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
+    parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run ``acts record``; return 0 when messages of every requested topic have been recorded."""
     if bool(arguments.topics) == arguments.all:
         raise RecordingError("say which topics to record: either their names, or -a for all")
-    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
-        raise RecordingError(f"--duration {arguments.duration:g} is not a positive time in seconds")
     topics = None if arguments.all else [full_name(name) for name in arguments.topics]
     path = arguments.output or Path(f"rosbag2_{datetime.now():%Y_%m_%d-%H_%M_%S}")
     return record(path, topics, arguments.duration)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import ActsError
-from acts_tools.arguments import refuse_unused
+from acts_tools.arguments import real, refuse_unused
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -32,7 +32,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="measurements to make (default: the short ones)")
-    parser.add_argument("--seconds", type=float, help="how long each measures (default: its own time)")
+    parser.add_argument("--seconds", type=real(0.2, 3600), help="how long each measures (default: its own time)")
     parser.add_argument(
         "--out", type=Path, default=Path("out"), help="folder for bench.json or bench_skins.json (default: out)"
     )

@@ -23,8 +23,6 @@ from acts_tools.running.stopping import StopFlag
 OTHERS_WARNING_PERCENT = 10.0
 """Load by others above which the report warns [% of one core]."""
 
-SECONDS_MIN, SECONDS_MAX = 0.2, 3600.0
-
 
 def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) -> list[str]:
     """Choose the measurements to run.
@@ -67,9 +65,8 @@ def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str
     Raises
     ------
     ActsError
-        When `seconds` is out of range or a measurement cannot be made.
+        When a measurement cannot be made.
     """
-    check_seconds(seconds)
     report: dict[str, Any] = {**begin_report(), "measurements": {}}
     for name in names:
         entry = MEASUREMENTS[name]
@@ -81,12 +78,6 @@ def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str
     ]
     report["warnings"] = _warnings(report["measurements"])
     return report
-
-
-def check_seconds(seconds: float | None) -> None:
-    """Raise `ActsError` if a duration [s] is out of range; None is allowed."""
-    if seconds is not None and not SECONDS_MIN <= seconds <= SECONDS_MAX:
-        raise ActsError(f"--seconds {seconds:g}: allowed is {SECONDS_MIN:g} to {SECONDS_MAX:g}")
 
 
 def begin_report() -> dict[str, Any]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from acts_tools.arguments import random_seed
+from acts_tools.arguments import random_seed, real, whole
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -21,12 +21,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Ball balancing by touch with simulated skin, ball and UR5e. The exit code is 0 if the trajectory "
         "came to its end within the limits that the result shows.",
     )
-    ball.add_argument("--seconds", type=float, help="shorten it: trace only what fits into this time (default: all)")
+    ball.add_argument(
+        "--seconds", type=real(5.0, 600.0), help="shorten it: trace only what fits into this time (default: all)"
+    )
     ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
     ball.add_argument("--robot-ip", default="127.0.0.1", help="loopback address of the simulated robot")
     ball.add_argument(
         "--realtime-priority",
-        type=int,
+        type=whole(0, 99),
         default=0,
         help="priority of all processes under SCHED_FIFO, 1 to 99, where the limits allow it; see docs/real_time.md",
     )

@@ -12,7 +12,7 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
-from acts_core.errors import SettingsError
+from acts_tools.arguments import seconds
 from acts_tools.diagnostics.statuses import SILENT_AFTER_S, Statuses
 
 if TYPE_CHECKING:
@@ -51,12 +51,17 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("-b", "--brief", action="store_true", help="without the values")
     parser.add_argument("--json", action="store_true", help="as one JSON object: a list of reports for each topic")
     parser.add_argument(
-        "-t", "--timeout", type=float, default=10.0, metavar="SECONDS", help="how long to wait for a first report (10)"
+        "-t",
+        "--timeout",
+        type=seconds,
+        default=10.0,
+        metavar="SECONDS",
+        help="how long to wait for a first report (10)",
     )
     parser.add_argument(
         "-w",
         "--watch",
-        type=float,
+        type=seconds,
         default=_ALL_S,
         metavar="SECONDS",
         help=f"how long to listen from the first report on ({_ALL_S}); a node that is silent for more than "
@@ -66,9 +71,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(arguments: argparse.Namespace) -> int:
     """Listen and print; return the worst level, or 3 if no node reports."""
-    for option, seconds in (("--timeout", arguments.timeout), ("--watch", arguments.watch)):
-        if not 0 < seconds < float("inf"):
-            raise SettingsError(f"{option} {seconds:g} is not a positive time in seconds")
     statuses = _heard(arguments.timeout, arguments.watch)
     if statuses.is_empty:
         print(

@@ -12,16 +12,14 @@ import time
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from acts_core.errors import SettingsError
 from acts_core.names import full_name
 from acts_core.words import counted
+from acts_tools.arguments import real, seconds
 from acts_tools.diagnostics.statuses import SILENT_AFTER_S
 
 if TYPE_CHECKING:
     from acts_tools.listen.arrivals import Interval
     from acts_tools.listen.listener import Listener
-
-_EVERY_MIN_S = 0.05
 
 _EPILOG = """\
 examples:
@@ -44,17 +42,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("topics", nargs="+", metavar="TOPIC", help="topics, such as /plate/contact")
-    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
-    parser.add_argument("--every", type=float, default=1.0, metavar="SECONDS", help="time between two reports (1)")
+    parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
+    parser.add_argument("--every", type=real(0.05), default=1.0, metavar="SECONDS", help="time between two reports (1)")
     parser.add_argument("--json", action="store_true", help="reports as lines of JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Listen; return 0 if messages arrived on every topic."""
-    if not arguments.every >= _EVERY_MIN_S:
-        raise SettingsError(f"--every {arguments.every:g}: at least {_EVERY_MIN_S:g} s are needed")
-    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
-        raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
     topics = list(dict.fromkeys(map(full_name, arguments.topics)))
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.executor import spin_for

@@ -17,17 +17,20 @@ from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import without_contact
-from acts_core.settings import default_of
+from acts_core.settings import part_of
 from acts_core.words import counted
 from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary
 from acts_recon.sparse import Dictionary, save_dictionary
 from acts_sim.pressing import OBJECTS, FoamConfig, object_named
-from acts_tools.arguments import refuse_unused
+from acts_tools.arguments import add_settings, random_seed, refuse_unused, whole
 from acts_tools.output_file import require_writable
 from acts_tools.progress import Progress
 from acts_tools.training.checkpoint import Checkpoint
 from acts_tools.training.frames import Source, model_frames, recorded_frames
 from acts_tools.training.patches import PatchChoice, choose_patches
+
+_OF_KSVD = ("atoms", "sparsity", "iterations")
+"""Settings that are options; the others stay as they are."""
 
 
 def add_parser(subparsers: Any) -> None:
@@ -53,37 +56,17 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--objects", nargs="+", action="extend", metavar="NAME", help="objects of the contact model (default: all)"
     )
-    parser.add_argument("--presses", type=int, default=3000, help="frames of the contact model (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=0, help="random seed (default: %(default)s)")
-    parser.add_argument("--patches", type=int, default=15000, help="largest number of patches (default: %(default)s)")
-    parser.add_argument(
-        "--patch-size", type=int, default=PatchChoice.size, help="side of a patch in taxels (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--min-active",
-        type=int,
-        default=PatchChoice.min_active,
-        help="pressed taxels that a patch needs (default: %(default)s; paper: 16)",
-    )
-    parser.add_argument(
-        "--touch-counts",
-        type=float,
-        default=PatchChoice.touch_counts,
-        help="touch threshold (default: %(default)s)",
-    )
-    parser.add_argument(
-        "--coherence",
-        type=float,
-        default=PatchChoice.coherence,
-        help="patches with a larger coherence are pruned (default: %(default)s)",
-    )
-    for name, text in (
-        ("atoms", "number of atoms"),
-        ("sparsity", "largest number of atoms in a patch"),
-        ("iterations", "rounds of K-SVD"),
+    million = 10**6
+    for name, numbers, default, text in (
+        ("presses", whole(1, million), 3000, "frames of the contact model"),
+        ("patches", whole(2, million), 15000, "largest number of patches"),
+        ("seed", random_seed, 0, "random seed"),
     ):
-        default = default_of(KsvdConfig, name)
-        parser.add_argument(f"--{name}", type=int, default=default, help=f"{text} (default: %(default)s)")
+        parser.add_argument(
+            f"--{name}", type=numbers, default=default, metavar="X", help=f"{text} (default: %(default)s)"
+        )
+    add_settings(parser, PatchChoice)
+    add_settings(parser, KsvdConfig, *_OF_KSVD)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -95,15 +78,10 @@ def run(arguments: argparse.Namespace) -> int:
         When the frames cannot be read, a setting is out of range, or there are too few patches.
     """
     _check(arguments)
-    config = KsvdConfig(atoms=arguments.atoms, sparsity=arguments.sparsity, iterations=arguments.iterations)
+    config = KsvdConfig(**{name: getattr(arguments, name) for name in _OF_KSVD})
+    choice = part_of(PatchChoice, arguments)
     rng = np.random.default_rng(arguments.seed)
     source, settings = _source(arguments)
-    choice = PatchChoice(
-        size=arguments.patch_size,
-        touch_counts=arguments.touch_counts,
-        min_active=arguments.min_active,
-        coherence=arguments.coherence,
-    )
     patches = choose_patches(source.frames, arguments.patches, rng, choice)
     settings = {
         **asdict(config),
@@ -178,20 +156,6 @@ def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    pixels = arguments.patch_size**2
-    for name, lowest, highest in (
-        ("presses", 1, 10**6),
-        ("seed", 0, 2**63),
-        ("patches", 2, 10**6),
-        ("patch_size", 2, 32),
-        ("min_active", 1, pixels),
-        ("touch_counts", 0, 1022),
-        ("coherence", 0, 1),
-    ):
-        value = getattr(arguments, name)
-        if not lowest <= value <= highest:
-            option = name.replace("_", "-")
-            raise SettingsError(f"--{option} {value}: allowed is {lowest} to {highest}")
     if arguments.frames is not None and arguments.objects:
         raise SettingsError("--objects names objects of the contact model and does not go with --frames; leave one out")
     if arguments.frames is not None:

@@ -10,6 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import COUNT_MAX
+from acts_core.errors import SettingsError
+from acts_core.settings import setting, validate
 from acts_recon.learning import prune_coherent, random_patches
 
 _PLACES_PER_PATCH = 40
@@ -21,24 +24,18 @@ _DISTINCT_OF_PATCHES = 2.5
 
 @dataclass(frozen=True)
 class PatchChoice:
-    """Which patches are chosen; the defaults are those of `acts train`.
+    """Which patches are chosen; options of `acts train`."""
 
-    Attributes
-    ----------
-    size : int
-        Side of a patch [taxels].
-    touch_counts : float
-        A taxel above it is pressed.
-    min_active : int
-        Pressed taxels that a patch needs.
-    coherence : float
-        Of two patches with a larger coherence one is left out.
-    """
+    patch_size: int = setting(8, "side of a patch in taxels", minimum=2, maximum=32)
+    min_active: int = setting(4, "pressed taxels that a patch needs; paper: 16", minimum=1, maximum=32**2)
+    touch_counts: float = setting(60.0, "touch threshold", minimum=0, maximum=COUNT_MAX - 1)
+    coherence: float = setting(0.99, "patches with a larger coherence are pruned", minimum=0, maximum=1)
 
-    size: int = 8
-    touch_counts: float = 60.0
-    min_active: int = 4
-    coherence: float = 0.99
+    def __post_init__(self) -> None:
+        validate(self)
+        taxels = self.patch_size**2
+        if self.min_active > taxels:
+            raise SettingsError(f"min_active = {self.min_active}: allowed is 1 to {taxels}, the taxels of a patch")
 
 
 def choose_patches(
@@ -48,12 +45,12 @@ def choose_patches(
 
     Returns
     -------
-    np.ndarray [shape=(n, size * size), dtype=float32]
+    np.ndarray [shape=(n, patch_size**2), dtype=float32]
     """
     patches = random_patches(
         frames,
         _PLACES_PER_PATCH * n_patches,
-        size=choice.size,
+        size=choice.patch_size,
         touch_counts=choice.touch_counts,
         min_active=choice.min_active,
         rng=rng,

@@ -208,11 +208,8 @@ def test_a_recording_of_all_topics_without_any_message_is_no_success(tmp_path: P
     [
         (["record"], "say which topics"),
         (["record", "-a", "/x"], "say which topics"),
-        (["record", "-a", "-d", "-1"], "--duration -1 is not a positive time"),
         (["record", "-a", "-o", "{here}"], "exists already"),
         (["play", "{here}/no"], "there is no bag"),
-        (["play", "{here}", "--rate", "0"], "--rate 0 is not a positive number"),
-        (["play", "{here}", "--delay", "nan"], "--delay nan is not a time"),
     ],
 )
 def test_wrong_words_are_refused_in_one_line(tmp_path: Path, words: list[str], message: str) -> None:

@@ -17,6 +17,46 @@ EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlin
 
 
 @pytest.mark.parametrize(
+    ("words", "allowed"),
+    [
+        ("bench decode --seconds 0.1", "a number from 0.2 to 3600"),
+        ("bench decode --seconds 99999", "a number from 0.2 to 3600"),
+        ("bench decode --seconds nan", "a number from 0.2 to 3600"),
+        ("bench skins --load -1", "a whole number from 0 to 64"),
+        ("bench skins --skins 0", "a whole number from 1 to 16"),
+        ("bench skins --skins 17", "a whole number from 1 to 16"),
+        ("demo ball_balancing --realtime-priority 100", "a whole number from 0 to 99"),
+        ("demo ball_balancing --seconds 1", "a number from 5 to 600"),
+        ("diagnostics --timeout 0", "0.001 or more"),
+        ("diagnostics --watch nan", "0.001 or more"),
+        ("evaluate hand --scenario slip --rate-hz 5", "a number from 10 to 500"),
+        ("evaluate hand --scenario slip --seed -1", "a whole number from 0 to 9223372036854775807"),
+        ("evaluate hand --scenario slip --seeds 0", "a whole number from 1 to 10000"),
+        ("listen /cop --every 0", "0.05 or more"),
+        ("listen /cop --every inf", "0.05 or more"),
+        ("listen /cop --every nan", "0.05 or more"),
+        ("listen /cop -d 0", "0.001 or more"),
+        ("listen /cop -d inf", "0.001 or more"),
+        ("play any --delay nan", "0 or more"),
+        ("play any --rate 0", "0.001 or more"),
+        ("record -a -d -1", "0.001 or more"),
+        ("train -o any.npz --patches 1", "a whole number from 2 to 1000000"),
+        ("train -o any.npz --presses 0", "a whole number from 1 to 1000000"),
+        ("train -o any.npz --seed -1", "a whole number from 0 to 9223372036854775807"),
+    ],
+)
+def test_it_is_told_what_is_allowed(
+    words: str, allowed: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as end:
+        main(words.split())
+    assert end.value.code == 2
+    assert f": {words.split()[-1]}: allowed is {allowed}\n" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
     "words",
     [
         *(["evaluate", name, "--seed", "-1"] for name in EVALUATIONS),

@@ -137,8 +137,6 @@ def test_where_nobody_reports_it_says_so(capsys: pytest.CaptureFixture[str], mon
     monkeypatch.setenv("ROS_DOMAIN_ID", "189")
     assert main(["diagnostics", "--timeout", "0.2"]) == 3
     assert "no node has reported on /diagnostics or /diagnostics_agg within 0.2 s" in capsys.readouterr().err
-    assert main(["diagnostics", "--timeout", "0"]) == 1
-    assert main(["diagnostics", "--watch", "nan"]) == 1
 
 
 def test_interrupted_before_anything_came_it_does_not_say_that_nobody_reports() -> None:

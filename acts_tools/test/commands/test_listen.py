@@ -219,9 +219,3 @@ def test_words_that_are_no_topic_are_refused(
     assert main([*command, name]) == 1
     assert capsys.readouterr().err.startswith(f"error: {name!r} is no topic: allowed are letters, digits (not first)")
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("words", [["--every", "0"], ["--every", "nan"], ["-d", "0"], ["-d", "inf"]])
-def test_impossible_times_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["listen", *words, "/plate/contact"]) == 1
-    assert f"{words[0].replace('-d', '--duration')} {words[1]}" in capsys.readouterr().err

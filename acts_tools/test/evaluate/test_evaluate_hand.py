@@ -145,11 +145,6 @@ def test_the_command_runs_seeds_and_writes_shares_with_intervals(
     assert "ok: 3 of 4" in capsys.readouterr().out
 
 
-def test_a_rate_that_the_hand_does_not_have_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["evaluate", "hand", "--scenario", "slip", "--rate-hz", "5"]) != 0
-    assert "allowed is 10 to 500" in capsys.readouterr().err
-
-
 def test_further_reflexes_and_settings_are_those_of_the_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -56,13 +56,12 @@ def test_training_from_frames(tmp_path: Path) -> None:
     [
         (["--atoms", 1], SettingsError, "atoms = 1"),
         (["--iterations", 0], SettingsError, "iterations = 0"),
-        (["--presses", 0], SettingsError, "--presses 0: allowed is 1"),
-        (["--min-active", 65], SettingsError, "--min-active 65: allowed is 1 to 64"),
-        (["--coherence", "nan"], SettingsError, "--coherence nan"),
+        (["--min-active", 65], SettingsError, "min_active = 65: allowed is 1 to 64"),
+        (["--coherence", "nan"], SettingsError, "coherence = nan"),
         (["--objects", "cube"], SettingsError, "'cube' does not exist"),
         (["--objects", "eraser", "--frames", "x.npz"], SettingsError, "leave one out"),
         (["--frames", "/no/such.npz"], RecordingError, "/no/such.npz: cannot be read"),
-        (["--patch-size", 33, "--min-active", 5], SettingsError, "--patch-size 33"),
+        (["--patch-size", 33, "--min-active", 5], SettingsError, "patch_size = 33: allowed is 2 to 32"),
         ([*SMALL, "--atoms", 5000], ArrayError, "patches for 5000 atoms"),
     ],
 )

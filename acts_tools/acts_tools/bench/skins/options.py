@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from acts_core.errors import ActsError
+from acts_tools.arguments import whole
 
 NAME = "skins"
 SUMMARY = "1 to 16 skins at 1 kHz, M = 55, to a subscriber of their contacts"
 SECONDS = 60.0
 """Default duration [s]."""
-
-SKINS_MAX = 16
-LOAD_MAX = 64
 
 
 @dataclass(frozen=True)
@@ -27,27 +25,16 @@ class SkinsOptions:
     Attributes
     ----------
     skins : int
-        Number of skins, 1 to `SKINS_MAX`.
+        Number of skins.
     load : int
-        Number of processes with busy loops, 0 to `LOAD_MAX`.
+        Number of processes with busy loops.
     realtime : bool
         Whether boards, skins and subscriber run under SCHED_FIFO; the load never does.
-
-    Raises
-    ------
-    ActsError
-        When a number is out of range.
     """
 
     skins: int = 1
     load: int = 0
     realtime: bool = False
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.skins <= SKINS_MAX:
-            raise ActsError(f"--skins {self.skins}: allowed is 1 to {SKINS_MAX}")
-        if not 0 <= self.load <= LOAD_MAX:
-            raise ActsError(f"--load {self.load}: allowed is 0 to {LOAD_MAX}")
 
     @property
     def names(self) -> list[str]:
@@ -58,8 +45,10 @@ class SkinsOptions:
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options in a group of their own. Options that are not given are None."""
     group = parser.add_argument_group(f"options of {NAME}, which is measured by itself")
-    group.add_argument("--skins", type=int, metavar="N", help="number of skins (default: 1)")
-    group.add_argument("--load", type=int, metavar="L", help="number of processes with busy loops (default: 0)")
+    group.add_argument("--skins", type=whole(1, 16), metavar="N", help="number of skins (default: 1)")
+    group.add_argument(
+        "--load", type=whole(0, 64), metavar="L", help="number of processes with busy loops (default: 0)"
+    )
     group.add_argument(
         "--realtime", choices=("on", "off"), help="run boards, skins and subscriber in real time (default: off)"
     )
@@ -86,13 +75,7 @@ def is_chosen(arguments: argparse.Namespace) -> bool:
 
 
 def options_from(arguments: argparse.Namespace) -> SkinsOptions:
-    """Options from a command line.
-
-    Raises
-    ------
-    ActsError
-        When a number is out of range.
-    """
+    """Options from a command line."""
     given = {name: value for name, value in _values(arguments).items() if value is not None}
     if "realtime" in given:
         given["realtime"] = given["realtime"] == "on"

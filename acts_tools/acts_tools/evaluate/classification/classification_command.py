@@ -11,10 +11,9 @@ from typing import Any
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import load_frames
-from acts_core.settings import default_of
 from acts_core.words import counted
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
-from acts_tools.arguments import at_least_one, refuse_unused, taxels
+from acts_tools.arguments import add_settings, at_least_one, refuse_unused, taxels
 from acts_tools.evaluate.classification.recorded import run_recorded
 from acts_tools.evaluate.classification.tables import draw, table, times
 from acts_tools.evaluate.classification.trials import M_OVER_TIME, MS, Trials, run_trials
@@ -55,18 +54,7 @@ def add_parser(commands: Any) -> None:
             f"--{name}", type=at_least_one, default=getattr(Trials(), name), help=f"{text} (default: %(default)s)"
         )
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
-    for name, text in (
-        ("miss_taxels", "standard deviation of a press's position about its spot [taxels]"),
-        ("miss_deg", "standard deviation of the angle of a press [degrees]"),
-    ):
-        default = default_of(PressingConfig, name)
-        parser.add_argument(
-            f"--{name.replace('_', '-')}",
-            type=float,
-            default=default,
-            metavar="X",
-            help=f"{text} (default: %(default)s)",
-        )
+    add_settings(parser, PressingConfig, "miss_taxels", "miss_deg")
     add_seed_and_json(parser)
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw both curves (not with --frames)")
     parser.set_defaults(evaluate=_run)

@@ -14,10 +14,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from acts_core.errors import LaunchError, SettingsError
+from acts_core.errors import LaunchError
 from acts_core.settings import SettingValue
 from acts_core.words import counted
-from acts_tools.arguments import given_settings
+from acts_tools.arguments import given_settings, random_seed, real, whole
 from acts_tools.evaluate import report
 from acts_tools.evaluate.statistics import wilson
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 _NUMBERS = ("noticed_ms", "stopped_ms", "penetration_mm", "offset_mm")
 _NAMES = ("slip", "hold", "sharp", "blunt", "sphere", "small_sphere", "hand_to_hand")
-_SEEDS_MAX = 10_000
 
 
 def add_parser(commands: Any) -> None:
@@ -39,13 +38,21 @@ def add_parser(commands: Any) -> None:
         "the numbers.",
     )
     parser.add_argument("--scenario", required=True, choices=_NAMES, help="scenario to run")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="seed of the first run (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="number of runs (default: %(default)s)")
+    parser.add_argument(
+        "--seed", type=random_seed, default=1, metavar="S", help="seed of the first run (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--seeds", type=whole(1, 10_000), default=1, metavar="N", help="number of runs (default: %(default)s)"
+    )
     parser.add_argument(
         "--reflex", choices=("on", "off"), default="on", help="whether the reflex of the scenario is on (default: on)"
     )
     parser.add_argument(
-        "--rate-hz", type=float, default=250.0, metavar="R", help="rate of the reflexes [Hz] (default: %(default)g)"
+        "--rate-hz",
+        type=real(10.0, 500.0),
+        default=250.0,
+        metavar="R",
+        help="rate of the reflexes [Hz] (default: %(default)g)",
     )
     parser.add_argument(
         "--also",
@@ -75,12 +82,6 @@ def _run(arguments: argparse.Namespace) -> int:
     # Imported here, because MuJoCo and the kernels are slow to import.
     from acts_tools.evaluate.hand.scenario import Run
 
-    if not 10.0 <= arguments.rate_hz <= 500.0:
-        raise SettingsError(f"--rate-hz {arguments.rate_hz:g}: allowed is 10 to 500")
-    if arguments.seed < 0 or not 1 <= arguments.seeds <= _SEEDS_MAX:
-        raise SettingsError(
-            f"--seed {arguments.seed} --seeds {arguments.seeds}: allowed are 0 or more, 1 to {_SEEDS_MAX}"
-        )
     also, settings = tuple(arguments.also), _settings(arguments.set, arguments.also)
     setup = {"scenario": arguments.scenario, "reflex": arguments.reflex, "rate_hz": arguments.rate_hz}
     results = report.Results(arguments.json, {**setup, "also": also, "set": settings})

@@ -12,10 +12,10 @@ from typing import Any
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_frame
-from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
+from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import taxels
+from acts_tools.arguments import add_settings, taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
@@ -50,15 +50,7 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
     parser.add_argument(
         "--dictionary", metavar="FILE", help="dictionary, for methods that use one (default: the shipped one)"
     )
-    for name, info in describe(Task).items():
-        default = defaults.get(name, default_of(Task, name))
-        parser.add_argument(
-            f"--{name.replace('_', '-')}",
-            type=type(default),
-            default=default,
-            metavar="X",
-            help=f"{info.description} (default: %(default)s)",
-        )
+    add_settings(parser, Task, **defaults)
     parser.add_argument(
         "--search-counts",
         type=int,

@@ -22,10 +22,10 @@ from scipy import ndimage
 from acts_core.array import ArrayGeometry
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, load_frames
-from acts_core.settings import default_of, describe
+from acts_core.settings import part_of
 from acts_core.words import counted
 from acts_recon.slip import SMALLEST_SIDE, SlipConfig, SlipDetector
-from acts_tools.arguments import real
+from acts_tools.arguments import add_settings, real
 from acts_tools.evaluate import report
 from acts_tools.evaluate.picture import diagrams
 from acts_tools.large_files import tell_if_large
@@ -83,15 +83,7 @@ def add_parser(commands: Any) -> None:
         metavar="S",
         help="noise of a taxel (default: %(default)s)",
     )
-    for name, info in describe(SlipConfig).items():
-        default = default_of(SlipConfig, name)
-        parser.add_argument(
-            f"--{name.replace('_', '-')}",
-            type=float,
-            default=default,
-            metavar="X",
-            help=f"{info.description} (default: %(default)s)",
-        )
+    add_settings(parser, SlipConfig)
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw paths and detected slip")
     parser.set_defaults(evaluate=_run)
@@ -167,7 +159,7 @@ def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
 def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"frames": str(arguments.frames)}, reads=[arguments.frames])
     require_picture(arguments.picture)
-    config = SlipConfig(**{name: getattr(arguments, name) for name in describe(SlipConfig)})
+    config = part_of(SlipConfig, arguments)
     tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames, labels=True)
     rate_hz = arguments.rate_hz or recorded.rate_hz

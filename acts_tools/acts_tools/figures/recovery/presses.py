@@ -170,4 +170,4 @@ def learn(
     pressed = model_frames(list(items), frames, run.seed)
     chosen = choose_patches(pressed, patches, rng)
     learnt = learn_dictionary(chosen, config, rng=rng, progress=lambda state: show(state.iteration / config.iterations))
-    return Dictionary(learnt, PatchChoice.size, {}, f"{atoms} atoms of {len(items)} objects")
+    return Dictionary(learnt, PatchChoice().patch_size, {}, f"{atoms} atoms of {len(items)} objects")
