@@ -12,8 +12,11 @@ from collections.abc import Iterator
 
 import pytest
 
+from acts_tools.bench.cases.link import CONTACT, _Link
+from acts_tools.listen.arrivals import Interval
 from acts_tools.two_machines.cable import Cable
 from acts_tools.two_machines.conditions import Conditions
+from acts_tools.two_machines.ear import Report
 
 
 @pytest.fixture
@@ -77,3 +80,16 @@ def test_loss_and_cut_are_counted(ends: tuple[Cable, socket.socket, socket.socke
     cable.carry()
     assert received(far) == received(near) == []
     assert cable.traffic[1].dropped == 1
+
+
+def test_the_age_of_contacts_is_the_middle_of_all_reports() -> None:
+    link = _Link(None, None, 0)  # type: ignore[arg-type]
+    ages_ms = (9.0, 1.0, 4.0, 2.0)
+    link._add_contacts(
+        "good", "good cable", [Report({CONTACT: Interval(1.0, 9, 1, ms, ms, 9, 1, 0.0)}, {}) for ms in ages_ms]
+    )
+    assert {figure.key: figure.value for figure in link.figures} == {
+        "good.lost_percent": 10.0,
+        "good.age_ms": 3.0,
+        "good.largest_age_ms": 9.0,
+    }

@@ -10,6 +10,7 @@ namespaces of this machine, so that their clocks agree.
 from __future__ import annotations
 
 import os
+import statistics
 import sys
 import time
 from functools import partial
@@ -122,10 +123,10 @@ class _Link:
     def _add_contacts(self, key: str, label: str, reports: list[Report]) -> None:
         received = sum(report.topics[CONTACT].received for report in reports)
         lost = sum(report.topics[CONTACT].lost or 0 for report in reports)
-        medians_ms = sorted(value for report in reports if (value := report.topics[CONTACT].median_ms) is not None)
+        medians_ms = [value for report in reports if (value := report.topics[CONTACT].median_ms) is not None]
         largest_ms = [value for report in reports if (value := report.topics[CONTACT].largest_ms) is not None]
         lost_percent = 100 * lost / max(received + lost, 1)
-        median_ms = medians_ms[len(medians_ms) // 2] if medians_ms else None
+        median_ms = statistics.median(medians_ms) if medians_ms else None
         self.figures += [
             Figure(f"{key}.lost_percent", f"{label}: contacts lost", lost_percent, "%"),
             Figure(f"{key}.age_ms", "    age at arrival, median", median_ms, "ms"),
