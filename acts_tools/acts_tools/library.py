@@ -64,7 +64,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.frames is not None:
         refuse_unused(arguments, "with --frames", "presses", "seed")
     if arguments.frames is None:
-        objects = [object_named(name) for name in arguments.objects] if arguments.objects else list(OBJECTS.values())
+        # An object that is named twice is one object.
+        objects = [object_named(name) for name in dict.fromkeys(arguments.objects or OBJECTS)]
         frames, labels = PressingArm(objects, seed=arguments.seed).held_frames(arguments.presses)
         presses = counted(arguments.presses, "press", "presses")
         source = f"{presses} of {counted(len(objects), 'object')} into the ACTS contact model"

@@ -56,7 +56,8 @@ def figures_named(names: Sequence[str]) -> list[Figure]:
         if not parts or any(part not in known for part in parts):
             raise SettingsError(f"figure {name!r}: allowed are {', '.join(FIGURES)}")
         found += [known[part] for part in parts]
-    return found or list(FIGURES.values())
+    # A figure that is named twice is one figure.
+    return list({figure.name: figure for figure in found}.values()) or list(FIGURES.values())
 
 
 def _parts(name: str) -> list[str]:

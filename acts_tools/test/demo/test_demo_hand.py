@@ -145,6 +145,18 @@ def test_an_act_that_there_is_not_is_refused(tmp_path: Path, capsys: pytest.Capt
     assert "juggle: there is no such act; there are sphere, slip" in capsys.readouterr().err
 
 
+def test_an_act_that_is_named_twice_is_played_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    played: list[str] = []
+
+    def play(names: list[str], *_: object) -> int:
+        played.extend(names)
+        return 0
+
+    monkeypatch.setattr("acts_tools.demo.hand.run._run", play)
+    assert main(["demo", "hand", "slip", "sharp", "slip", "--out", str(tmp_path)]) == 0
+    assert played == ["slip", "sharp"]
+
+
 def test_an_act_is_played_by_real_processes_and_leaves_figures_and_a_picture(tmp_path: Path) -> None:
     finished = subprocess.run(
         [sys.executable, "-m", "acts_tools", "demo", "hand", "slip", "--out", str(tmp_path)],

@@ -144,6 +144,14 @@ def test_a_picture_shows_every_m_and_accuracies_however_low(tmp_path: Path, monk
     pyplot.close(drawn[0])
 
 
+def test_an_m_that_is_named_twice_counts_once(tmp_path: Path) -> None:
+    out = tmp_path / "out.json"
+    few = ("--arms", 1, "--presses", 1, "--columns", 2, "--objects", *SIX[:2])
+    assert evaluate(*few, "--m", 64, 64, "--json", out) == 0
+    (one,) = json.loads(out.read_text())["over_m"][ACTS]
+    assert one["presses"] == 2
+
+
 def test_of_one_object_every_answer_would_be_right(tmp_path: Path) -> None:
     with pytest.raises(SettingsError, match="--objects circle: of one object every answer is right"):
         evaluate("--objects", "circle", "circle")
@@ -172,7 +180,7 @@ def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path
     assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
     loaded = load_object_library(path)
     assert (loaded.names, loaded.n_columns) == (("tweezers", "x"), 4)
-    assert make_library("-o", path, "--objects", "tweezers", "x", "--presses", 2, "--seed", 5) == 0
+    assert make_library("-o", path, "--objects", "tweezers", "x", "x", "--presses", 2, "--seed", 5) == 0
     assert load_object_library(path).sha256 == loaded.sha256
 
 

@@ -118,6 +118,10 @@ def test_figures_of_one_number_have_a_name_together() -> None:
             figures_named([word])
 
 
+def test_a_figure_that_is_named_twice_is_drawn_once() -> None:
+    assert [figure.name for figure in figures_named(["6b", "6A-C", "6B"])] == ["6B", "6A", "6C"]
+
+
 def test_unknown_figures_and_folders_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["figures", "3Z", "--out", str(tmp_path)]) == 1
     assert "allowed are 4D" in capsys.readouterr().err

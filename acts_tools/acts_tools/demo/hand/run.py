@@ -46,7 +46,8 @@ def run(names: list[str], out: Path, seed: int) -> int:
     unknown = [name for name in names if name not in TITLES]
     if unknown:
         raise ActsError(f"{', '.join(unknown)}: there is no such act; there are {', '.join(TITLES)}")
-    chosen = names or list(TITLES)
+    # An act that is named twice is one act.
+    chosen = list(dict.fromkeys(names)) or list(TITLES)
     files = DemoFiles.made(out, "hand")
     with claimed_folder(out), StopFlag() as stop:
         return _run(chosen, files, seed, stop)

@@ -63,6 +63,8 @@ def add_parser(commands: Any) -> None:
 def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.json, reads=[arguments.frames] if arguments.frames else [])
     require_picture(arguments.picture)
+    # What is named twice is one: its presses would count twice.
+    ms = list(dict.fromkeys(arguments.m or ([55] if arguments.frames else MS)))
     if arguments.frames:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
@@ -71,7 +73,7 @@ def _run(arguments: argparse.Namespace) -> int:
         recorded = load_frames(arguments.frames, labels=True)
         with Progress("recordings", 1) as progress:
             try:
-                results = run_recorded(recorded, arguments.m or [55], progress.show)
+                results = run_recorded(recorded, ms, progress.show)
             except RecordingError as error:
                 raise RecordingError(f"{arguments.frames}: {error}") from None
         print(
@@ -80,7 +82,6 @@ def _run(arguments: argparse.Namespace) -> int:
         )
         print(table(results["over_m"], "m", "accuracy at M ="))
     else:
-        # An object that is named twice is one object.
         names = dict.fromkeys(arguments.objects)
         if len(names) < 2:
             raise SettingsError(f"--objects {' '.join(names)}: of one object every answer is right; name two or more")
@@ -93,7 +94,7 @@ def _run(arguments: argparse.Namespace) -> int:
             objects=tuple(object_named(name) for name in names),
         )
         with Progress("presses", 1) as progress:
-            results = run_trials(trials, arguments.m or MS, show=progress.show)
+            results = run_trials(trials, ms, show=progress.show)
         print(table(results["over_m"], "m", "accuracy, held, at M ="))
         print()
         print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))
