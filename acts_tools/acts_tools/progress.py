@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Progress of a long task: a tqdm bar on a terminal, a few lines or nothing elsewhere."""
+"""Progress of a long task: a tqdm bar on a terminal, a few lines or nothing elsewhere; and results meanwhile."""
 
 from __future__ import annotations
 
@@ -13,6 +13,12 @@ from tqdm import tqdm
 
 _LINES = 10
 """Largest number of lines without a terminal."""
+
+
+def tell(line: str) -> None:
+    """Print a line on standard output, above the bars that a terminal shows."""
+    with tqdm.external_write_mode():
+        print(line, flush=True)
 
 
 class Progress:

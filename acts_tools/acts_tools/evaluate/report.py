@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_tools.output_file import require_writable, write_json
+from acts_tools.progress import tell
 
 
 def number(value: float | None, width: int, digits: int) -> str:
@@ -41,7 +42,9 @@ class Results:
         self._path = path
         self._about = about
 
-    def add(self, entry: dict[str, Any]) -> None:
-        """Add an entry."""
+    def add(self, entry: dict[str, Any], line: str = "") -> None:
+        """Add an entry, and print its line of the table where it has one."""
         self.entries.append(entry)
         write_json(self._path, {**self._about, "results": self.entries})
+        if line:
+            tell(line)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
 from acts_core.files import write_whole
+from acts_tools.progress import tell
 
 _SHORTEST_S = 1.0
 
@@ -59,4 +60,4 @@ def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz
         frames = np.concatenate((frames, np.repeat(frames[:1], missing, axis=0)))
     with write_whole(path, error=RecordingError, makes_folder=True) as file:
         np.save(file, frames)
-    print(f"{path}: {len(frames) / rate_hz:.2f} s, recording_rate_hz:={rate_hz:g}", flush=True)
+    tell(f"{path}: {len(frames) / rate_hz:.2f} s, recording_rate_hz:={rate_hz:g}")

@@ -21,7 +21,7 @@ from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, large_images, rows, to_json
 from acts_tools.output_file import make_folder
-from acts_tools.progress import Progress
+from acts_tools.progress import Progress, tell
 
 _HEADER = ("panel", "curve", "by", "x", "y", "low", "high")
 _WITHOUT = f"The paper's curves are not drawn: give their folder as --paper-data or {VARIABLE} (docs/paper.md)."
@@ -101,12 +101,11 @@ def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str
     notes = [*figure.notes, *([_WITHOUT] if published is None and figure.has_published else [])]
     draw(path.with_suffix(".png"), figure, whole, command, notes)
     how = "as measured before" if known is not None else f"measured in {spent_s:.1f} s"
-    print(f"{figure.name:5} {path.with_suffix('.png')}, {how}", flush=True)
+    tell(f"{figure.name:5} {path.with_suffix('.png')}, {how}")
     for line in compared:
-        print(
+        tell(
             f"      {line['panel']}: {line['curve']} differs from {line['published']} by {line['mean_absolute']:.3g} "
-            f"({100 * line['mean_relative']:.1f} %) in the mean, {line['mean']:+.3g} with sign",
-            flush=True,
+            f"({100 * line['mean_relative']:.1f} %) in the mean, {line['mean']:+.3g} with sign"
         )
     return entry
 

@@ -9,7 +9,7 @@ import io
 
 import pytest
 
-from acts_tools.progress import Progress
+from acts_tools.progress import Progress, tell
 
 
 class Terminal(io.StringIO):
@@ -44,6 +44,20 @@ def test_a_bar_that_is_kept_ends_in_what_was_done_and_a_line() -> None:
     assert last.startswith("iteration: 100%|")
     assert "4/4" in last
     assert last.endswith(", done]\n")
+
+
+def test_what_is_told_meanwhile_has_a_line_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stdout", terminal)
+    monkeypatch.setattr("sys.stderr", terminal)
+    with Progress("drops", 4) as bar:
+        bar.show(1)
+        tell("M = 64")
+        bar.show(2)
+    before, after = terminal.getvalue().split("M = 64")
+    # The bar is gone from the line, and comes again below.
+    assert before.split("\r")[-1] == ""
+    assert after.startswith("\n\rdrops: 25%|")
 
 
 def test_a_bar_that_is_not_kept_leaves_an_empty_line_after_an_interruption() -> None:

@@ -91,8 +91,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 scores.add([arguments.seed, seed])
                 progress.show(number * arguments.seeds + seed + 1)
             entry = scores.result()
-            results.add(entry)
-            print(_walks_line(entry), flush=True)
+            results.add(entry, _walks_line(entry))
     return 0
 
 
@@ -105,8 +104,7 @@ def _run_recorded(arguments: argparse.Namespace) -> int:
     for recording in recordings:
         found = find_steps(recording, arguments.length_m, arguments.width_m)
         entry = _recorded(recording, found)
-        results.add(entry)
-        print(_recorded_lines(entry), flush=True)
+        results.add(entry, _recorded_lines(entry))
     feet = [foot for entry in results.entries for foot in entry["feet"].values()]
     if not any(foot["steps"] or foot["curve_steps"] for foot in feet):
         frames: list[Any] = [one.frames for one in recordings]

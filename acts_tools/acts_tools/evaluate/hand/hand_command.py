@@ -94,10 +94,9 @@ def _run(arguments: argparse.Namespace) -> int:
         outcome, further = (_live if arguments.live else _counted)(arguments.scenario, one)
         outcomes.append(outcome)
         events.update(further["events"])
-        entry = {"seed": seed, **vars(outcome), **further}
-        results.add(entry)
         numbers = " | ".join(_shown(getattr(outcome, name)) for name in _NUMBERS)
-        print(f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |", flush=True)
+        line = f"| {seed} | {_shown(outcome.ok)} | {_shown(outcome.kept)} | {numbers} |"
+        results.add({"seed": seed, **vars(outcome), **further}, line)
     results.add(_summary(outcomes))
     for name in also:
         print(f"{name}: set off {counted(events[name], 'time')} in {counted(len(outcomes), 'run')}")

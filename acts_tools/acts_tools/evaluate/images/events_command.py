@@ -41,7 +41,6 @@ def _run(arguments: argparse.Namespace) -> int:
         recordings = [Recording(one, EVENT_RATE_HZ, live) for one in frames]
         for task in tasks:
             scored = evaluate_shown(recordings, task, dictionary, f"{name}: ")
-            results.add({"event": name, **scored})
             further = report.number(scored["notice_further_ms"]["p99"], 11, 1)
-            print(f"{name:13} {line(scored)} {further}", flush=True)
+            results.add({"event": name, **scored}, f"{name:13} {line(scored)} {further}")
     return 0

@@ -65,5 +65,5 @@ def evaluate_all(
     require_methods(tasks, dictionary)
     print(HEADER, flush=True)
     for task in tasks:
-        results.add(evaluate_shown(recordings, task, dictionary))
-        print(line(results.entries[-1]), flush=True)
+        scored = evaluate_shown(recordings, task, dictionary)
+        results.add(scored, line(scored))

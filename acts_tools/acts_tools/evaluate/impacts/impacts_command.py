@@ -96,8 +96,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 entries.append(seen_by_us(scenes, scheme, m, arguments.noise_counts))
                 progress.show(done := done + len(scenes))
             for entry in entries:
-                results.add(entry)
-                print(_line(entry), flush=True)
+                results.add(entry, _line(entry))
     return 0
 
 

@@ -147,11 +147,9 @@ def _run(arguments: argparse.Namespace) -> int:
                 all_paper += of_paper
                 all_ours += of_ours
                 entry = {"speed_m_s": speed_m_s, "angle_deg": angle_deg, **scores_of(of_paper, of_ours)}
-                results.add(entry)
-                print(_line(entry), flush=True)
+                results.add(entry, _line(entry))
     entry = {"speed_m_s": None, "angle_deg": None, **scores_of(all_paper, all_ours)}
-    results.add(entry)
-    print(_line(entry), flush=True)
+    results.add(entry, _line(entry))
     return 0
 
 

@@ -85,8 +85,7 @@ def _run(arguments: argparse.Namespace) -> int:
                     progress.show(done := done + 1)
                 for (method, scheme), traced in told.items():
                     entry = {"body": name, "m": m, "method": method, "scheme": scheme, **scores_of(traced, m)}
-                    results.add(entry)
-                    print(_line(entry), flush=True)
+                    results.add(entry, _line(entry))
                 if arguments.surfaces is not None:
                     outlines = tracing.our_outlines(touches[0], m, arguments.noise_counts, 1)
                     write_surfaces(arguments.surfaces, f"{name}_m{m}", outlines)

@@ -197,8 +197,10 @@ def _run(arguments: argparse.Namespace) -> int:
         found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at, slip)
         holding = sum(time_s > 0.5 for time_s, _ in found)
         delay = ", ".join(_in_words(delay_ms) for delay_ms in (float(np.median(delays_ms)), max(delays_ms)))
-        print(f"| {m} | {delay} of {len(delays_ms)} | {closing} | {holding} |", flush=True)
         # JSON knows no infinity: null where slip was never reported.
         known_ms = [delay_ms if math.isfinite(delay_ms) else None for delay_ms in delays_ms]
-        results.add({"m": m, "delay_ms": known_ms, "false_closing": closing, "false_holding": holding})
+        results.add(
+            {"m": m, "delay_ms": known_ms, "false_closing": closing, "false_holding": holding},
+            f"| {m} | {delay} of {len(delays_ms)} | {closing} | {holding} |",
+        )
     return 0

@@ -77,13 +77,11 @@ def _run(arguments: argparse.Namespace) -> int:
                 rate_hz, highest_hz = frame_rate_hz(m), motors.highest_hz(m)
                 scores = _scores(all_motors, of_motors, rate_hz, highest_hz, is_still=is_still)
                 entry = {"m": m, "method": method, "scheme": scheme, **scores}
-                results.add(entry)
-                print(_line(entry), flush=True)
+                results.add(entry, _line(entry))
         for kind in ("motors", "tones", "still"):
             entry = _of_one_taxel(kind, arguments, progress, done)
             done += arguments.seeds
-            results.add(entry)
-            print(_line(entry), flush=True)
+            results.add(entry, _line(entry))
     return 0
 
 

@@ -87,8 +87,7 @@ def _run(arguments: argparse.Namespace) -> int:
             found = tally(name, arguments.seeds, arguments.m, arguments.noise_counts, arguments.seed, progress)
         kind = SCENES[name]
         entry = {"scene": name, "figure": kind.figure, "layout": kind.layout, "scheme": SCHEME, **found.summary()}
-        results.add(entry)
-        print(_line(entry), flush=True)
+        results.add(entry, _line(entry))
     if arguments.untouched:
         print(_UNTOUCHED_TITLE, flush=True)
     seconds = max(round(60 * arguments.minutes), 1)
@@ -96,10 +95,9 @@ def _run(arguments: argparse.Namespace) -> int:
         rng = np.random.default_rng([arguments.seed, number])
         with Progress(name, seconds) as progress:
             alone = watch_untouched(name, seconds, arguments.m, arguments.noise_counts, rng, progress.show)
-        results.add({"untouched": name, "scheme": SCHEME, **asdict(alone)})
-        print(
+        results.add(
+            {"untouched": name, "scheme": SCHEME, **asdict(alone)},
             f"{name:12} {alone.seconds / 60:7.1f} {alone.frames:7} {alone.told:5} {alone.drift_counts:12.1f}",
-            flush=True,
         )
     return 0
 
