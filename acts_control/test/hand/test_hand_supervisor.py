@@ -190,14 +190,26 @@ def test_a_palm_that_feels_more_than_is_allowed_opens_all_fingers(besides: list[
         assert all(hand.angle(joint) < before[NAMES.index(joint)] for joint in finger.closes)
 
 
-def test_after_a_failed_motor_what_was_held_is_gripped_anew() -> None:
+@pytest.mark.parametrize("recovered", [True, False])
+@pytest.mark.parametrize("before", [HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING])
+def test_a_hand_whose_motors_had_stopped_does_not_close_before_somebody_asks_for_it(
+    recovered: bool, before: HandState
+) -> None:
     hand = a_holding_hand()
-    hand.supervisor.restart(recovered=True)
-    hand.step(GRIPPED)
-    assert hand.supervisor.status.state is HandState.CLOSING
-    hand = a_holding_hand()
-    hand.supervisor.restart(recovered=False)
-    assert hand.step(GRIPPED) is HandState.STOPPED
+    if before is HandState.CLOSING:
+        hand.supervisor.grasp()
+        hand.step([], steps=5)
+    elif before is HandState.AVOIDING:
+        hand.step([TIP, *GRIPPED[1:]], steps=10)
+    assert hand.supervisor.status.state is before
+    hand.supervisor.restart(recovered=recovered)
+    goal = hand.goal.copy()
+    # What was held may have been taken away meanwhile.
+    for touch in ([], GRIPPED):
+        assert hand.step(touch, steps=250) is HandState.STOPPED
+        assert np.array_equal(hand.goal, goal)
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED) is HandState.CLOSING
 
 
 def test_after_a_failed_motor_without_touch_the_hand_stops() -> None:

@@ -15,7 +15,7 @@ class Behaviour(Protocol):
     """What moves a hand instead of commands, from the loop's thread."""
 
     def restart(self, *, recovered: bool) -> None:
-        """The torque is on again, and every joint holds where it is; `recovered`: after a motor had failed."""
+        """The torque is on again, every joint holds where it is; `recovered`: after motors had failed or stopped."""
 
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
         """Called with each reading while the torque is on.

@@ -133,18 +133,17 @@ class HandSupervisor:
     # --- from the loop's thread
 
     def restart(self, *, recovered: bool) -> None:
-        """The motors were without torque, and hold now where they are; `recovered`: because one had failed.
+        """The torque is on again, and every joint holds where it is; `recovered`: after motors had failed or stopped.
 
-        What was asked for while a motor was started anew is done now, else the hand grips again if it did before.
+        The hand stands still then, whatever it did before: something else may be between its fingers by now. Only what
+        was asked for while a motor was started anew is done.
         """
-        self._rule.reset()
-        self._reset_reflexes()
-        if not recovered:
+        if recovered:
+            reason = "motors had failed or stopped: goals stand where the joints are; grasp anew"
+        else:
             self._wanted.clear()  # what was asked for before the hand was lost is old
-        elif self._state in (HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING):
-            self._wanted.appendleft("grasp")
-        if not (recovered and self._wanted):
-            self._become(HandState.STOPPED, "goals stand where the joints are")
+            reason = "goals stand where the joints are"
+        self._become(HandState.STOPPED, reason)
         self.status = replace(self.status, state=self._state, reason=self._reason, active=())
 
     def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
