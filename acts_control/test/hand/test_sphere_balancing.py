@@ -282,3 +282,10 @@ def test_no_place_of_a_contact_makes_steps_that_are_not_finite(out_m: float) -> 
     wish = reflex.step(closing(on_palm(), pressed))
     assert wish is not None
     assert np.isfinite(wish.steps).all()
+
+
+@pytest.mark.parametrize(("spread_m", "acts"), [(0.004, True), (0.0075, True), (0.02, False)])
+def test_what_is_held_and_no_sphere_is_left_to_the_other_reflexes(spread_m: float, acts: bool) -> None:
+    reflex = SphereBalancing(SphereBalancingConfig())
+    tips = [region(f"{finger}_distal", 0.2) for finger in LEAP_RIGHT.fingers]
+    assert (reflex.step(sensed(on_palm(spread_m=spread_m), *tips)) is not None) is acts

@@ -30,6 +30,9 @@ Array = NDArray[np.float64]
 _ROUND_S = 0.1
 # Once at the centre it is moved again when it is this much farther than `sphere_deadband_m`.
 _HYSTERESIS = 1.75
+# What is pressed into the palm spreads more than what lies on it, by up to this: a sphere of 34 mm radius spreads by
+# 7.3 mm, a cylinder of 25 mm radius by more than 20 mm.
+_PRESSED = 1.5
 # A force is left alone within this share of what is wanted: what always corrects itself creeps.
 _FORCE_BAND = 0.4
 
@@ -196,6 +199,9 @@ class SphereBalancing(Reflex):
     def _hold(self, sensed: Sensed, ball: Ball) -> Wish | None:
         """Steps of all fingers, so that the sphere gets to the centre and every fingertip to the sphere."""
         config, state = self.config, self.state
+        widest_m = _PRESSED * config.sphere_max_spread_m
+        if any(one.in_contact and one.spread_m > widest_m for one in sensed.of_finger("")):
+            return None  # no sphere: its fingers would be moved on and on
         touched = {finger: _outermost(sensed, finger) for finger in sensed.hand.fingers}
         if not any(touched.values()) or sum(one.in_contact for one in sensed.regions.values()) < 2:
             return None
