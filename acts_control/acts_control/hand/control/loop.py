@@ -259,7 +259,10 @@ class HandLoop:
             )
             phase = HandPhase.RECOVERING
         if phase is not HandPhase.ENABLED:
-            return self._switch_on(reading, recovered=phase is HandPhase.RECOVERING)
+            self._switch_on(reading, recovered=phase is HandPhase.RECOVERING)
+            return []
+        # Switching on takes many exchanges: goals begin where the joints are after it, or the first would be a leap.
+        goal = goal or list(reading.q_rad)
         targets, reason = self._targets(reading, goal, now_s, dt_s)
         step, moved = self._config.max_speed_rad_s * dt_s, []
         for k, joint in enumerate(self._hand.joints):
@@ -283,19 +286,19 @@ class HandLoop:
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(moved))
         return moved
 
-    def _switch_on(self, reading: HandReading, *, recovered: bool) -> list[float]:
-        """Hold every joint where it is: the goals."""
+    def _switch_on(self, reading: HandReading, *, recovered: bool) -> None:
+        """Hold every joint where it is."""
         far = beyond_reach(self._hand, reading)
         if far:
             self._give_up(far)
-            return []
+            return
         self._is_on = True
         self._bus.enable()
         self._obeyed_s = time.monotonic()
         if not self._wish.is_on:
             # Meanwhile somebody has stopped or released it: from here on the hand would hold.
             self._obey_release()
-            return []
+            return
         with self._lock:
             self._target.clear()  # what was wanted before is old
         for sentence in to_be_brought_back(self._hand, reading):
@@ -304,7 +307,6 @@ class HandLoop:
             self._behaviour.restart(recovered=recovered)
         self._set(HandPhase.ENABLED, "holding", goal_rad=reading.q_rad)
         self._wish.has_come_on()
-        return list(reading.q_rad)
 
     def _targets(
         self, reading: HandReading, goal: Sequence[float], now_s: float, dt_s: float
