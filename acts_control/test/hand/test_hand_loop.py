@@ -272,6 +272,22 @@ def test_fingers_that_are_moved_while_the_torque_comes_on_are_not_pulled_back(ma
     assert bus.sent[0] == pytest.approx(bus.moves_to_rad)
 
 
+def test_a_hand_that_was_lost_and_then_stopped_gets_no_torque_when_it_is_back(made: Made) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    bus.is_there = False
+    until(lambda: loop.status.phase is HandPhase.CONNECTING)
+    assert loop.cancel_enable()
+    bus.is_there = True
+    until(lambda: loop.status.reason == "stopped before it was on")
+    cycles = loop.status.cycles
+    until(lambda: loop.status.cycles > cycles + 10)
+    assert not bus.has_torque
+    assert loop.enable() == ""
+    assert bus.has_torque
+
+
 class Broken(Moved):
     """A behaviour with a mistake."""
 

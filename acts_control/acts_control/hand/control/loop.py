@@ -127,7 +127,7 @@ class HandLoop:
         return self._wish.is_on
 
     def cancel_enable(self) -> bool:
-        """The torque stays off, if it was asked for and has not come on since; whether that is so."""
+        """The torque stays off, if it is wanted and has yet to come on, also again; whether that is so."""
         if not self._wish.is_under_way:
             return False
         self._wish.off("stopped before it was on")
@@ -236,6 +236,7 @@ class HandLoop:
                     continue
                 goal = self._move(reading, goal, min(dt_s, 4.0 * period_s), now_s)
         finally:
+            self._wish.has_gone_off()
             self._release_at_end()
 
     def _obey_release(self) -> None:

@@ -65,7 +65,7 @@ class TorqueWish:
     is_on : bool
         Whether the torque is wanted.
     is_under_way : bool
-        Whether it is, and has not come on since that was asked for.
+        Whether it is, and has not come on since that was asked for, or since the hand was lost.
     is_served : bool
         Whether the loop of the hand runs.
     why_off : str
@@ -94,6 +94,10 @@ class TorqueWish:
         self.is_on = self.is_under_way = False
         self.off_is_known.clear()
         self.on_is_known.set()
+
+    def has_gone_off(self) -> None:
+        """The torque has gone off though nobody wants that: where it is wanted, it is on its way again."""
+        self.is_under_way = self.is_on
 
     def has_come_on(self) -> None:
         """The torque is on, as was wanted."""
