@@ -288,6 +288,16 @@ def test_a_hand_that_was_lost_and_then_stopped_gets_no_torque_when_it_is_back(ma
     assert bus.has_torque
 
 
+@pytest.mark.parametrize("broken", ["q_rad", "current_ma"])
+def test_motors_whose_numbers_are_not_finite_count_as_silent(made: Made, broken: str) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    setattr(bus, broken, [math.nan] * 16)
+    until(lambda: "not finite" in loop.status.reason)
+    until(lambda: not bus.has_torque)
+
+
 class Broken(Moved):
     """A behaviour with a mistake."""
 

@@ -216,8 +216,7 @@ class HandLoop:
                 self._count(cycles=1, late=int(dt_s > 1.5 * period_s))
                 try:
                     reading = self._bus.read()
-                    if not all(map(math.isfinite, reading.q_rad)):
-                        raise HandError(f"the motors answered with angles that are not finite: {reading.q_rad}")
+                    _check(reading)
                 except HandLostError:
                     raise
                 except HandError:
@@ -379,3 +378,11 @@ class HandLoop:
     def _count(self, **counts: int) -> None:
         changed = {name: getattr(self.status, name) + count for name, count in counts.items()}
         self.status = replace(self.status, **changed)  # type: ignore[arg-type]
+
+
+def _check(reading: HandReading) -> None:
+    """Refuse numbers that are not finite: a current that is none would be below every limit."""
+    told = {"angles": reading.q_rad, "speeds": reading.qd_rad_s, "currents": reading.current_ma}
+    for what, numbers in told.items():
+        if not all(map(math.isfinite, numbers)):
+            raise HandError(f"the motors answered with {what} that are not finite: {numbers}")
