@@ -69,12 +69,13 @@ def forces_n(
     """
     depth = depth_m(config, radius_m, load_n)
     total = np.zeros((geometry.rows, geometry.cols))
-    sub = ((np.arange(SUBPOINTS) + 0.5) / SUBPOINTS - 0.5) * geometry.pitch_m
+    sub = (np.arange(SUBPOINTS) + 0.5) / SUBPOINTS - 0.5
+    sub_x, sub_y = sub * geometry.pitch_m, sub * geometry.pitch_y_m
     col_x, row_y = geometry.x_m(np.arange(geometry.cols)), geometry.y_m(np.arange(geometry.rows))
     for offset_x, weight_x in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
         for offset_y, weight_y in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
-            x = (col_x[:, None] + sub + offset_x * config.foam_spread_m) - x_m
-            y = (row_y[:, None] + sub + offset_y * config.foam_spread_m) - y_m
+            x = (col_x[:, None] + sub_x + offset_x * config.foam_spread_m) - x_m
+            y = (row_y[:, None] + sub_y + offset_y * config.foam_spread_m) - y_m
             rise = depth - (x[None, :, None, :] ** 2 + y[:, None, :, None] ** 2) / (2 * radius_m)
             total += weight_x * weight_y * np.maximum(rise, 0.0).mean(axis=(2, 3))
     return config.foam_stiffness_n_per_m3 * geometry.taxel_area_m2 * total
@@ -103,6 +104,7 @@ class BallContact:
         press(
             self.counts,
             self._geometry.pitch_m,
+            self._geometry.pitch_y_m,
             x_m,
             y_m,
             self._radius_m,

@@ -177,6 +177,7 @@ def roll(
 def press(
     counts: NDArray[np.float64],
     pitch: float,
+    row_pitch: float,
     x: float,
     y: float,
     radius: float,
@@ -193,7 +194,9 @@ def press(
     ----------
     counts : np.ndarray [shape=(rows, cols), dtype=float64]
         Overwritten.
-    pitch, x, y, radius, depth, spread : float
+    pitch, row_pitch : float
+        Distances of neighbouring columns and rows [m].
+    x, y, radius, depth, spread : float
         [m]
     stiffness : float
         [N/m^3]
@@ -204,34 +207,38 @@ def press(
     counts[:] = 0.0
     if depth <= 0.0:
         return
-    reach = math.sqrt(2.0 * radius * depth) + SPREAD_OFFSETS[2] * spread + 0.5 * pitch
+    reach = math.sqrt(2.0 * radius * depth) + SPREAD_OFFSETS[2] * spread
+    reach_x, reach_y = (reach + 0.5 * pitch) / pitch, (reach + 0.5 * row_pitch) / row_pitch
     col_middle = x / pitch + 0.5 * (cols - 1)
-    row_middle = 0.5 * (rows - 1) - y / pitch
-    first_col = max(math.ceil(col_middle - reach / pitch), 0)
-    last_col = min(math.floor(col_middle + reach / pitch), cols - 1)
-    first_row = max(math.ceil(row_middle - reach / pitch), 0)
-    last_row = min(math.floor(row_middle + reach / pitch), rows - 1)
+    row_middle = 0.5 * (rows - 1) - y / row_pitch
+    first_col = max(math.ceil(col_middle - reach_x), 0)
+    last_col = min(math.floor(col_middle + reach_x), cols - 1)
+    first_row = max(math.ceil(row_middle - reach_y), 0)
+    last_row = min(math.floor(row_middle + reach_y), rows - 1)
     points = SUBPOINTS * 3
     weight = np.empty(points)
-    offset = np.empty(points)
+    offset_x = np.empty(points)
+    offset_y = np.empty(points)
     for i in range(SUBPOINTS):
         for j in range(3):
-            offset[3 * i + j] = ((i + 0.5) / SUBPOINTS - 0.5) * pitch + SPREAD_OFFSETS[j] * spread
+            share, aside = (i + 0.5) / SUBPOINTS - 0.5, SPREAD_OFFSETS[j] * spread
+            offset_x[3 * i + j] = share * pitch + aside
+            offset_y[3 * i + j] = share * row_pitch + aside
             weight[3 * i + j] = SPREAD_WEIGHTS[j] / SUBPOINTS
     rise_x = np.empty(points)
     for col in range(first_col, last_col + 1):
         for i in range(points):
-            distance = (col - col_middle) * pitch + offset[i]
+            distance = (col - col_middle) * pitch + offset_x[i]
             rise_x[i] = depth - distance * distance / (2.0 * radius)
         for row in range(first_row, last_row + 1):
             total = 0.0
             for j in range(points):
-                distance = (row_middle - row) * pitch + offset[j]
+                distance = (row_middle - row) * row_pitch + offset_y[j]
                 rise_y = distance * distance / (2.0 * radius)
                 line = 0.0
                 for i in range(points):
                     line += weight[i] * max(rise_x[i] - rise_y, 0.0)
                 total += weight[j] * line
-            above = stiffness * total * pitch * pitch - dead
+            above = stiffness * total * pitch * row_pitch - dead
             if above > 0.0:
                 counts[row, col] = full_scale * above / (above + half)

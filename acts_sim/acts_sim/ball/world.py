@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
+from acts_core.skin import LAYOUTS, NO_PATCH, Layout, layout
 from acts_sim.ball import ball, ball_plate
 from acts_sim.ball.ball import BallConfig, BallState
 from acts_sim.ball.ball_contact import BallContact, ContactConfig
@@ -39,7 +40,20 @@ class WorldConfig(BallConfig, ContactConfig, PlateConfig):
 
     rows: int = setting(32, "rows of the array", minimum=1, maximum=64)
     cols: int = setting(32, "columns of the array", minimum=1, maximum=64)
-    pitch_m: float = setting(0.140 / 32, "distance between neighbouring taxels [m]", minimum=1e-4, maximum=0.1)
+    layout: str = setting(
+        "square",
+        f"how the matrix of taxels lies on the skin: {', '.join(LAYOUTS)}, or the path of a layout file; the ball "
+        "rolls on its picture, laid flat",
+    )
+    pitch_m: float = setting(
+        0.0, "distance between neighbouring columns of the picture [m]; 0: that of the layout", minimum=0.0, maximum=0.1
+    )
+    row_pitch_m: float = setting(
+        0.0,
+        "distance between neighbouring rows of the picture [m]; 0: as pitch_m, the layout's where that is 0",
+        minimum=0.0,
+        maximum=0.1,
+    )
     start_x_m: float = setting(
         0.020, "start position of the ball, x in the skin's frame [m]", minimum=-3.0, maximum=3.0
     )
@@ -69,10 +83,20 @@ class WorldConfig(BallConfig, ContactConfig, PlateConfig):
     def __post_init__(self) -> None:
         validate(self)
 
+    def arranged(self) -> Layout:
+        """The layout of the skin on the plate.
+
+        Raises
+        ------
+        ArrayError, SettingsError
+            As of `acts_core.skin.layout`.
+        """
+        return layout(self.layout, self.rows, self.cols)
+
     @property
     def geometry(self) -> ArrayGeometry:
-        """The array on the plate."""
-        return ArrayGeometry(self.rows, self.cols, self.pitch_m)
+        """The picture of the skin on the plate; raises as `arranged` does."""
+        return self.arranged().geometry(self.pitch_m, self.row_pitch_m)
 
 
 @dataclass(frozen=True)
@@ -109,6 +133,15 @@ class WorldState:
 class World:
     """Simulates the world step by step.
 
+    Parameters
+    ----------
+    config : WorldConfig
+
+    Raises
+    ------
+    ArrayError, SettingsError
+        When there is no such layout, or it is for another matrix.
+
     Attributes
     ----------
     state : WorldState
@@ -117,18 +150,24 @@ class World:
     def __init__(self, config: WorldConfig) -> None:
         self.config = config
         self.state = WorldState(0.0, Phase.AWAITED, 0.0, BallState(), JointMotion.still(np.array(ur5e.LEVEL_Q_RAD)))
-        self._contact = BallContact(config, config.geometry, config.radius_m)
+        geometry, arranged = config.geometry, config.arranged()
+        self._contact = BallContact(config, geometry, config.radius_m)
+        self._layout = None if arranged.is_matrix else arranged
+        self._has_skin = arranged.patch_of != NO_PATCH
         self._rng = np.random.default_rng(config.seed)
-        self._half_x_m = config.cols * config.pitch_m / 2
-        self._half_y_m = config.rows * config.pitch_m / 2
+        self._half_x_m = geometry.cols * geometry.pitch_m / 2
+        self._half_y_m = geometry.rows * geometry.pitch_y_m / 2
         # Compile the kernel now; otherwise that would delay the step that puts the ball on.
         ball.step(config, BallState(), ball_plate.motion(config, self.state.joints), 0.0)
         self._contact.press(0.0, 0.0, 0.0)
 
     @property
     def counts(self) -> NDArray[np.float64]:
-        """Counts of the skin before noise and rounding; shape (rows * cols,), overwritten by the next step."""
-        return self._contact.counts.reshape(-1)
+        """Counts of the matrix before noise and rounding; shape (rows * cols,), overwritten by the next step."""
+        picture = self._contact.counts
+        if self._layout is None:
+            return picture.reshape(-1)
+        return self._layout.matrix(picture * self._has_skin).reshape(-1).astype(np.float64, copy=False)
 
     def step(self, joints: JointMotion | None, dt_s: float) -> WorldState:
         """Advance the world by one time step.

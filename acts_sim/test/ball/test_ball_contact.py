@@ -31,12 +31,12 @@ def centre_m(field_n: np.ndarray, geometry: ArrayGeometry = GEOMETRY) -> tuple[f
     )
 
 
-@pytest.mark.parametrize("geometry", [GEOMETRY, ArrayGeometry(20, 33, 0.003), ArrayGeometry(1, 1, 0.05)])
+@pytest.mark.parametrize("geometry", [GEOMETRY, ArrayGeometry(20, 33, 0.003, 0.005), ArrayGeometry(1, 1, 0.05)])
 def test_the_kernel_equals_its_plain_twin_everywhere(geometry: ArrayGeometry) -> None:
     """Also at and beyond the edges, lightly and heavily loaded."""
     under = contact(geometry=geometry)
     rng = np.random.default_rng(0)
-    half_x, half_y = geometry.cols * geometry.pitch_m / 2, geometry.rows * geometry.pitch_m / 2
+    half_x, half_y = geometry.cols * geometry.pitch_m / 2, geometry.rows * geometry.pitch_y_m / 2
     for _ in range(200):
         x_m, y_m = rng.uniform(-1.3, 1.3) * half_x, rng.uniform(-1.3, 1.3) * half_y
         load_n = 10 ** rng.uniform(-2, 2)

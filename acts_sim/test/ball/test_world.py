@@ -4,14 +4,16 @@
 """The world as a whole: phases, seed, pushes, bad joints."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from acts_core.errors import SettingsError
+from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError, SettingsError
 from acts_core.robots import ur5e
-from acts_core.skin import ForceResponse
+from acts_core.skin import ForceResponse, layout
 from acts_sim.ball.ball_plate import JointMotion
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 
@@ -158,6 +160,48 @@ def test_the_plates_own_acceleration_moves_the_load() -> None:
         loads.append(world.step(joints, 1e-6).ball.load_n)
     assert loads[0] != pytest.approx(loads[1], rel=0.01)
     assert loads[0] + loads[2] == pytest.approx(2 * loads[1], rel=0.01)
+
+
+@pytest.mark.parametrize("name", ["insole", "glove", "end_effector"])
+def test_the_ball_presses_the_picture_of_the_skin_whatever_the_wires(name: str) -> None:
+    config = WorldConfig(layout=name, start_after_s=0.0, start_x_m=0.012, start_y_m=-0.009)
+    world = World(config)
+    state = run(world, LEVEL, 0.01)
+    skin, geometry = layout(name), config.geometry
+    picture_n = ForceResponse().force_n(skin.picture(world.counts.reshape(32, 32)))
+    x_m, y_m = geometry.x_m(np.arange(skin.cols)), geometry.y_m(np.arange(skin.rows))
+    centre_m = (picture_n.sum(0) @ x_m, picture_n.sum(1) @ y_m) / picture_n.sum()
+    assert centre_m == pytest.approx((state.ball.x_m, state.ball.y_m), abs=1e-3)
+    assert picture_n.sum() == pytest.approx(state.ball.load_n, rel=0.05)
+
+
+def test_where_there_is_no_skin_nothing_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "half.yaml"
+    path.write_text(
+        "matrix: [8, 8]\npicture: [8, 8]\npitch_m: 0.005\n"
+        "patches:\n  half: {wires: {down: rows 0 to 3, across: cols 7 to 0}}\n"
+    )
+    world = World(WorldConfig(layout=str(path), rows=8, cols=8, start_after_s=0.0, start_x_m=0.0, start_y_m=0.0))
+    run(world, LEVEL, 0.01)
+    counts = world.counts.reshape(8, 8)
+    assert counts[3].any()
+    assert not counts[4:].any()
+
+
+def test_the_ball_leaves_at_the_edge_of_the_picture() -> None:
+    for start_y_m, phase in ((0.1399, Phase.ROLLING), (0.1401, Phase.FALLEN)):
+        world = World(WorldConfig(layout="insole", start_after_s=0.0, start_x_m=0.0, start_y_m=start_y_m))
+        assert run(world, LEVEL, 0.1).phase is phase
+
+
+def test_a_layout_for_another_matrix_is_refused() -> None:
+    with pytest.raises(ArrayError, match="insole"):
+        World(WorldConfig(layout="insole", rows=16))
+
+
+def test_the_square_pad_is_that_of_the_paper_unless_its_pitch_is_given() -> None:
+    assert WorldConfig().geometry == ArrayGeometry(row_pitch_m=0.140 / 32)
+    assert WorldConfig(pitch_m=0.002).geometry == ArrayGeometry(pitch_m=0.002, row_pitch_m=0.002)
 
 
 @pytest.mark.parametrize(
