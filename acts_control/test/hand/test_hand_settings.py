@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from acts_control.hand.control import HandLoopConfig
+from acts_control.hand.control import HandLoopConfig, SupervisorConfig
 from acts_control.hand.nodes.hand_node import HandSettings
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
-from acts_control.hand.reflexes import make_reflexes
+from acts_control.hand.reflexes import HandToHandConfig, make_reflexes
 from acts_core.errors import SettingsError
 
 BOTH_NODES = pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings])
@@ -61,6 +61,19 @@ def test_silence_that_begins_with_a_single_lost_answer_is_refused(settings: type
     ):
         settings(rate_hz=10.0, silence_s=0.15)
     assert settings(rate_hz=13.34, silence_s=0.15).silence_s == 0.15
+
+
+@pytest.mark.parametrize("settings", [SupervisorConfig, HandReflexesSettings])
+def test_a_grip_at_which_fingers_give_way_is_refused(settings: type) -> None:
+    with pytest.raises(SettingsError, match=r"grip_force_n = 5: allowed is less than max_force_n = 5"):
+        settings(grip_force_n=5.0, max_force_n=5.0)
+    assert settings(grip_force_n=4.9, max_force_n=5.0).grip_force_n == 4.9
+
+
+def test_another_hand_is_not_held_with_a_force_at_which_fingers_give_way() -> None:
+    with pytest.raises(SettingsError, match=r"hand_to_hand_force_n = 5: .* less than 5\.1"):
+        HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=8.5)
+    assert HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=9.0).hand_to_hand_force_n == 5.0
 
 
 def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:

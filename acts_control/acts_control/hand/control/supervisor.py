@@ -39,6 +39,11 @@ class SupervisorConfig(StepRuleConfig, GraspConfig):
 
     def __post_init__(self) -> None:
         validate(self)
+        if self.grip_force_n >= self.max_force_n:
+            raise SettingsError(
+                f"grip_force_n = {self.grip_force_n:g}: allowed is less than max_force_n = {self.max_force_n:g}, at "
+                f"which a finger gives way, or it would never have gripped"
+            )
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,7 @@ class _OwnSettings(SupervisorConfig, MotorSettings):
 
     def __post_init__(self) -> None:
         MotorSettings.__post_init__(self)
+        SupervisorConfig.__post_init__(self)
 
 
 def settings_class() -> type:

@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_core.skin import RegionContact
 
@@ -49,6 +50,13 @@ class HandToHandConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        yields_n = self.hand_to_hand_yield_share * self.hand_to_hand_max_force_n
+        if self.hand_to_hand_force_n + self.hand_to_hand_deadband_n >= yields_n:
+            raise SettingsError(
+                f"hand_to_hand_force_n = {self.hand_to_hand_force_n:g}: with hand_to_hand_deadband_n = "
+                f"{self.hand_to_hand_deadband_n:g} it has to be less than {yields_n:g}, where fingers give way "
+                f"(hand_to_hand_yield_share times hand_to_hand_max_force_n), or they would close and open in turn"
+            )
 
 
 @dataclass
