@@ -24,6 +24,14 @@ def test_settings_of_the_robot_are_checked() -> None:
         UrConfig(level_q_rad=(0.0,))
 
 
+def test_a_joint_step_that_the_limit_of_the_tilt_would_trip_is_refused() -> None:
+    with pytest.raises(SettingsError, match=r"max_joint_step_rad = 0\.01: .* 125 .* = 1 allowed is 0\.01245 or more"):
+        UrConfig(max_joint_step_rad=0.01)
+    assert UrConfig(max_joint_step_rad=0.01245).max_joint_step_rad == 0.01245
+    assert UrConfig(max_joint_step_rad=0.01, control_rate_hz=250).max_joint_step_rad == 0.01
+    assert UrConfig(max_tilt_rate_rad_s=3.0).max_tilt_rate_rad_s == 3.0, "the default suits every rate of the tilt"
+
+
 @pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
 def test_for_a_simulated_skin_only_a_robot_of_this_machine_is_controlled(robot_ip: str) -> None:
     for settings in (UrConfig, with_robots(LoopConfig)):

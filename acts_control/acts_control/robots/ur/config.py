@@ -6,20 +6,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, sqrt
 
 from acts_control.robots.base import RobotConfig
 from acts_core.errors import SettingsError
 from acts_core.robots import ur5e
 from acts_core.runtime import is_loopback
-from acts_core.settings import setting
+from acts_core.settings import rounded_up, setting
 
 _RATES_HZ = (125, 250, 500)
 
 # A pose further from level than this cannot be meant as the level one.
 _LEVEL_TOLERANCE_RAD = 0.02
 
-# The joints' limit is to be beyond that of the tilt by this factor, or the tilt's own limit would trip it.
+# The joints' limits are to be beyond those of the tilt by this factor, or the tilt's own limits would trip them.
 _OFFSET_PER_TILT = 1.1
 
 
@@ -68,6 +68,14 @@ class UrConfig(RobotConfig):
             raise SettingsError(
                 f"max_wrist_offset_rad = {self.max_wrist_offset_rad:g}: allowed is {least:.4f} or "
                 f"more, {_OFFSET_PER_TILT:g} times max_tilt_rad, or the limit of the tilt would trip it"
+            )
+        # Both axes may turn at once.
+        least = _OFFSET_PER_TILT * sqrt(2.0) * self.max_tilt_rate_rad_s / self.control_rate_hz
+        if self.max_joint_step_rad < least:
+            raise SettingsError(
+                f"max_joint_step_rad = {self.max_joint_step_rad:g}: with control_rate_hz = {self.control_rate_hz} and "
+                f"max_tilt_rate_rad_s = {self.max_tilt_rate_rad_s:g} allowed is {rounded_up(least)} or more, or the "
+                f"limit of the tilt's rate would trip it"
             )
         # What a simulated skin feels must not move a real arm.
         if self.loopback_only and not is_loopback(self.robot_ip):
