@@ -17,7 +17,7 @@ from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.robots.base import RobotReading
-from acts_core.errors import RobotError
+from acts_core.errors import RobotError, SettingsError
 
 
 class NoArm:
@@ -94,3 +94,13 @@ def test_the_estimator_takes_its_settings_in_force(context: Context) -> None:
     assert change(node, lever_arm_m=0.1)
     assert "gate_sigmas" in change(node, gate_sigmas=0.5)
     node.destroy_node()
+
+
+def test_estimator_and_controller_with_different_lever_arms_do_not_work_together(context: Context) -> None:
+    state = BallStateNode(is_driven=True, context=context, parameter_overrides=[Parameter("lever_arm_m", value=0.12)])
+    trajectory = BallTrajectoryNode(is_driven=True, context=context)
+    control = BallControlNode(lambda _: NoArm(), subscribes=False, context=context)
+    with pytest.raises(SettingsError, match=r"lever_arm_m: ball_state has 0\.12 and ball_control 0\.155"):
+        control.follow(state, trajectory)
+    for node in (control, trajectory, state):
+        node.destroy_node()

@@ -24,6 +24,7 @@ from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.ball.nodes.names import CLOCK_REASON, REFERENCE_TOPIC, STATE_TOPIC, STATUS_TOPIC, TILT_TOPIC
 from acts_control.robots import make_robot, with_robots
 from acts_control.robots.base import Robot
+from acts_core.errors import SettingsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
@@ -116,7 +117,19 @@ class BallControlNode(Node):
         )
 
     def follow(self, state: BallStateNode, trajectory: BallTrajectoryNode) -> None:
-        """Ask these two nodes of the same process at the begin of every control step; they wait for no timer then."""
+        """Ask these two nodes of the same process at the begin of every control step; they wait for no timer then.
+
+        Raises
+        ------
+        SettingsError
+            When the estimator has another `lever_arm_m`: what it follows is not what is controlled then.
+        """
+        own_m = self._settings.lever_arm_m
+        if state.lever_arm_m != own_m:
+            raise SettingsError(
+                f"lever_arm_m: ball_state has {state.lever_arm_m:g} and ball_control {own_m:g}; both are of one plate, "
+                f"give them the same"
+            )
         self._state_node = state
         trajectory.phase = lambda: self._loop.status.phase
 

@@ -72,12 +72,18 @@ class BallStateNode(PollingNode):
     is_driven : bool
         Whether a controller of the same process calls `update` and `set_tilt`. The node does so itself while nobody
         does; without a controller it does so at the rate it publishes with, and subscribes the tilt.
+
+    Attributes
+    ----------
+    lever_arm_m : float
+        As its parameter; a controller has to have the same [m].
     """
 
     def __init__(self, *, is_driven: bool = False, **node_arguments: Any) -> None:
         super().__init__("ball_state", **node_options(), **node_arguments)
         settings = declare(self, BallStateSettings, self._change)
         keep_system_clock(self, CLOCK_REASON)
+        self.lever_arm_m = settings.lever_arm_m
         self._is_driven = is_driven
         self._lock = threading.Lock()
         self._updated_s = 0.0
