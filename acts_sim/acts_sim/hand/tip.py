@@ -122,16 +122,22 @@ class Tip:
         origin, rotation = self._frame(patch)
         x_m = float(patch.geometry.x_m(col))
         y_m = float(patch.geometry.y_m(row))
-        radius_m = patch.radius_m
-        if not radius_m:
-            return origin + rotation @ (x_m, y_m, 0.0), rotation[:, 2]
-        angle = x_m / radius_m
-        local = np.array([radius_m * math.sin(angle), y_m, radius_m * (math.cos(angle) - 1.0)])
-        return origin + rotation @ local, rotation @ (math.sin(angle), 0.0, math.cos(angle))
+        z_m, radius_m, row_radius_m = 0.0, patch.radius_m, patch.row_radius_m
+        # As `SkinPatch.points_m` and `normals`, between the taxels, too.
+        along = x_m / radius_m if radius_m else 0.0
+        across = y_m / row_radius_m if row_radius_m else 0.0
+        if radius_m:
+            x_m, z_m = radius_m * math.sin(along), radius_m * (math.cos(along) - 1.0)
+        if row_radius_m:
+            y_m, z_m = (row_radius_m + z_m) * math.sin(across), (row_radius_m + z_m) * math.cos(across) - row_radius_m
+        normal = (math.sin(along), math.cos(along) * math.sin(across), math.cos(along) * math.cos(across))
+        return origin + rotation @ (x_m, y_m, z_m), rotation @ normal
 
     def _depth(self, patch: SkinPatch) -> float:
         origin, rotation = self._frame(patch)
-        x_m, _, z_m = ((self._end - origin) @ rotation).tolist()
+        x_m, y_m, z_m = ((self._end - origin) @ rotation).tolist()
+        if patch.row_radius_m:
+            z_m = math.copysign(math.hypot(y_m, z_m + patch.row_radius_m), patch.row_radius_m) - patch.row_radius_m
         if not patch.radius_m:
             return float(-z_m)
         return float(patch.radius_m - math.hypot(x_m, z_m + patch.radius_m))

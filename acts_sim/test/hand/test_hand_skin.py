@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hand_motors import switch_on
@@ -71,6 +73,28 @@ def test_a_tip_finds_every_patch_and_pushes_its_finger_away(patch: str) -> None:
     touched = [name for name, one in truth.patches.items() if one.force_n > 0.0]
     assert touched == [patch]
     assert 0.0 < truth.tip_depth_m < 0.0041
+
+
+def test_a_tip_finds_any_place_of_a_dome_and_its_depth_there(tmp_path: Path) -> None:
+    path = tmp_path / "dome.yaml"
+    path.write_text(
+        "matrix: [32, 32]\npicture: [32, 32]\npitch_m: 0.003\npatches:\n  dome:\n"
+        "    wires: {down: rows 0 to 15, across: cols 0 to 15}\n    link: palm_lower\n"
+        "    pose: {position_m: [-0.044, -0.035, -0.040], rpy_rad: [3.14159265, 0, 0]}\n"
+        "    radius_m: 0.05\n    row_radius_m: 0.05\n"
+    )
+    world = HandWorld(HandWorldConfig(object="none", layout=str(path)))
+    (patch,) = world.layout.patches
+    for row, col in ((2, 3), (7, 7), (13, 2)):
+        world.tip.poke("dome", SHARP_RADIUS_M, 0.05, 0.0, row=row, col=col)
+        run(world, 0.2)
+        # The palm's frame is the world's.
+        assert world.data.mocap_pos[0] == pytest.approx(patch.points_m()[row, col], abs=1e-6)
+        assert world.truth.tip_depth_m == pytest.approx(0.0, abs=1e-6)
+        world.tip.poke("dome", SHARP_RADIUS_M, 0.05, 0.001, row=row, col=col)
+        run(world, 0.2)
+        assert world.truth.tip_depth_m == pytest.approx(0.001, abs=1e-6)
+        assert int(world.forces_n.argmax()) == int(patch.of(world.layout.taxels)[row, col])
 
 
 def test_the_pattern_moves_with_an_object_that_slides_and_its_rim_slides_first() -> None:
