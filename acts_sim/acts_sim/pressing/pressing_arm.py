@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press
 from acts_sim.pressing.objects import OBJECTS, ContactObject
@@ -49,6 +50,10 @@ class PressingConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        if self.rise_min_s > self.rise_max_s:
+            raise SettingsError(
+                f"rise_min_s = {self.rise_min_s:g}: allowed is rise_max_s = {self.rise_max_s:g} or less"
+            )
 
 
 class PressingArm:

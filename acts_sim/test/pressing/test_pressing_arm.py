@@ -42,3 +42,5 @@ def test_the_same_seed_gives_the_same_frames() -> None:
 def test_settings_out_of_range_are_refused() -> None:
     with pytest.raises(SettingsError, match="miss_taxels = -1"):
         PressingConfig(miss_taxels=-1.0)
+    with pytest.raises(SettingsError, match=r"rise_min_s = 0\.04: allowed is rise_max_s = 0\.03 or less"):
+        PressingConfig(rise_min_s=0.040)
