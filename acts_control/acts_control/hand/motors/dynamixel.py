@@ -81,6 +81,8 @@ class DynamixelHand:
             # Where it has stopped a motor, that would refuse the goal current.
             self._each(table.WATCHDOG, 0)
             told = [*self._check_return_delay(), *usb_latency(Path(self._config.port))]
+            if not self._config.motor_watchdog_s:
+                told.append("motor_watchdog_s is 0: nothing stops the motors when this program hangs or dies")
             for index, joint in enumerate(self._hand.joints):
                 self._is_set_up[index] = not self._port.read(joint, table.HARDWARE_ERROR)
                 if self._is_set_up[index]:

@@ -171,6 +171,11 @@ def test_motors_that_their_watchdog_has_stopped_are_set_up_anew(bus: Bus) -> Non
     second.close()
 
 
+def test_motors_that_nothing_stops_when_the_program_dies_are_told(bus: Bus) -> None:
+    hand = bus.hand(motor_watchdog_s=0.0)
+    assert hand.connect() == ["motor_watchdog_s is 0: nothing stops the motors when this program hangs or dies"]
+
+
 def test_the_return_delay_is_told_and_set_where_that_is_wanted(tmp_path: Path) -> None:
     bus = Bus(tmp_path, "--return-delay", "250")
     try:
