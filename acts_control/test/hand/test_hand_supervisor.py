@@ -236,6 +236,32 @@ def test_what_is_asked_for_while_a_motor_starts_anew_is_done_when_it_is_back(
     assert hand.step(GRIPPED) is then
 
 
+def test_a_closing_hand_whose_program_stood_still_stops_though_touch_is_new() -> None:
+    hand = a_hand()
+    hand.supervisor.grasp()
+    assert hand.step([], steps=50) is HandState.CLOSING
+    hand.now_s += 0.05
+    assert hand.step([]) is HandState.CLOSING, "less than touch_stale_after_s"
+    hand.now_s += 3.0
+    goal = hand.goal.copy()
+    assert hand.step([], steps=50) is HandState.STOPPED
+    assert hand.supervisor.status.reason == "this program stood still while closing; grasp anew"
+    assert np.array_equal(hand.goal, goal)
+
+
+def test_a_holding_hand_whose_program_stood_still_holds_on_and_its_reflexes_begin_anew() -> None:
+    hand = a_holding_hand()
+    slips = [region("index_distal", 0.8, slip_m=3e-4, slipping=True), *GRIPPED[1:]]
+    hand.step(slips, steps=2)
+    assert hand.supervisor.status.active == ("slip",)
+    hand.now_s += 3.0
+    goal = hand.goal.copy()
+    assert hand.step(slips) is HandState.HOLDING
+    assert np.array_equal(hand.goal, goal)
+    assert hand.step(GRIPPED, steps=50) is HandState.HOLDING
+    assert np.array_equal(hand.goal, goal), "what it had added to the grip is forgotten"
+
+
 def test_no_reflex_is_told_to_act_in_a_hand_that_has_just_got_its_torque_back() -> None:
     hand = a_holding_hand()
     hand.step([TIP, *GRIPPED[1:]], steps=5)

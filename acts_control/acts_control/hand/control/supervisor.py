@@ -8,6 +8,7 @@ Plain logic of one step, for the loop's own thread; `grasp`, `release` and `stop
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -115,6 +116,7 @@ class HandSupervisor:
         self._grasp = Grasp(config)
         self._touch = HandTouch(kinematics)
         self._was_stale = True
+        self._stepped_s = math.inf  # at the last step; none before, and since the torque is on
 
     # --- from any thread
 
@@ -149,6 +151,7 @@ class HandSupervisor:
             self._wanted.clear()  # what was asked for before the hand was lost is old
             reason = "goals stand where the joints are"
         self._become(HandState.STOPPED, reason)
+        self._stepped_s = math.inf
         self.status = replace(self.status, state=self._state, reason=self._reason, active=())
 
     def touch(self, regions: Sequence[RegionContact], stamp_s: float, now_s: float) -> bool:
@@ -192,7 +195,7 @@ class HandSupervisor:
         goal_rad : sequence of float
             Those that were sent last [rad].
         now_s, dt_s : float
-            The time, and since the step before [s].
+            The time, and since the step before, as far as goals may move for it [s].
 
         Returns
         -------
@@ -202,9 +205,13 @@ class HandSupervisor:
         q, goal = np.array(reading.q_rad), np.array(goal_rad)
         self._obey()
         age_s = self._touch.age_s(now_s)
-        is_stale = age_s > self._config.touch_stale_after_s
+        stale_after_s = self._config.touch_stale_after_s
+        # The loop tells of no more than a few periods: nobody has looked at touch for the rest.
+        stood_still = now_s - self._stepped_s > dt_s + stale_after_s
+        self._stepped_s = now_s
+        is_stale = stood_still or age_s > stale_after_s
         if is_stale and (not self._was_stale or self._state is HandState.CLOSING):
-            self._lose_touch()
+            self._lose_touch("this program stood still" if stood_still else "touch is stale")
         elif self._was_stale and not is_stale:
             self._find_touch()
         self._was_stale = is_stale
@@ -315,13 +322,13 @@ class HandSupervisor:
         elif wanted == "stop":
             self._become(HandState.STOPPED, "stopped by request")
 
-    def _lose_touch(self) -> None:
+    def _lose_touch(self, why: str) -> None:
         goes_on_with = self._resumed if self._state is HandState.AVOIDING else self._state
         if goes_on_with is HandState.CLOSING:
-            self._become(HandState.STOPPED, "touch is stale while closing; grasp anew")
+            self._become(HandState.STOPPED, f"{why} while closing; grasp anew")
         elif self._state in (HandState.HOLDING, HandState.AVOIDING):
             self._rule.reset()  # or the steps that were asked for last would only fade
-            self._become(HandState.HOLDING, "touch is stale: the grip stays as it is, no reflex acts")
+            self._become(HandState.HOLDING, f"{why}: the grip stays as it is, no reflex acts")
 
     def _find_touch(self) -> None:
         self._reset_reflexes()
