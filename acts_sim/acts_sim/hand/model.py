@@ -67,6 +67,16 @@ def build(thing: HeldObject | None, timestep_s: float) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(ElementTree.tostring(_document(thing, timestep_s), encoding="unicode"))
 
 
+def body_index(model: mujoco.MjModel, name: str) -> int:
+    """Index of a body of the model; -1 where there is none of this name."""
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name))
+
+
+def joint_index(model: mujoco.MjModel, name: str) -> int:
+    """Index of a joint of the model; -1 where there is none of this name."""
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name))
+
+
 def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Element:
     root = ElementTree.Element("mujoco", model="leap_right")
     ElementTree.SubElement(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="true")

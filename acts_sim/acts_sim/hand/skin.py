@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse, Layout, SkinPatch
 from acts_sim.hand.kinematics import SKIN_THICKNESS_M
+from acts_sim.hand.model import body_index
 from acts_sim.hand.skin_kernels import BLOCK, FOAM, PATCH_RESULTS, POINT, press
 from acts_sim.hand.solid_kernels import NEAR, PATCH, WAVES, Bodies
 
@@ -101,7 +102,7 @@ class Skin:
         parts = [_points_of(patch, layout, config) for patch in layout.patches]
         self._points = np.concatenate(parts)
         self._patches = np.zeros(len(parts), PATCH)
-        self._patches["body"] = [_body(model, patch.link) for patch in layout.patches]
+        self._patches["body"] = [body_index(model, patch.link) for patch in layout.patches]
         self._patches["middle"], self._patches["reach"] = _spheres(parts)
         taxels_of = [patch.rows * patch.cols for patch in layout.patches]
         self._patches["first"], self._patches["end"] = _ends(taxels_of)
@@ -240,7 +241,3 @@ def _spreading(
     share = np.vectorize(lambda a: math.erf((a + 0.5) / width) - math.erf((a - 0.5) / width))(edges) / 2.0
     share[(index < 0) | (index >= taxels)] = 0.0
     return np.clip(index, 0, taxels - 1), share / share.sum(axis=1, keepdims=True)
-
-
-def _body(model: mujoco.MjModel, name: str) -> int:
-    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name))

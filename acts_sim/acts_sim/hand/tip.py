@@ -43,8 +43,8 @@ class Tip:
         self.depth_m = math.nan
         self._model, self._data, self._solid, self._cover_m = model, data, solid, cover_m
         self._patches = {patch.name: patch for patch in layout.patches}
-        self._mocap = int(model.body_mocapid[_id(model, mujoco.mjtObj.mjOBJ_BODY, hand_model.TIP)])
-        self._geom = _id(model, mujoco.mjtObj.mjOBJ_GEOM, hand_model.TIP)
+        self._mocap = int(model.body_mocapid[hand_model.body_index(model, hand_model.TIP)])
+        self._geom = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, hand_model.TIP))
         self._end = np.array(hand_model.PARKED_M)
         self._along = np.array([0.0, 0.0, 1.0])
         self._speed_m_s = 0.0
@@ -144,7 +144,7 @@ class Tip:
 
     def _frame(self, patch: SkinPatch) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Position and rotation of a patch, in the palm's frame."""
-        body = _id(self._model, mujoco.mjtObj.mjOBJ_BODY, patch.link)
+        body = hand_model.body_index(self._model, patch.link)
         turn = self._data.xmat[body].reshape(3, 3)
         return self._data.xpos[body] + turn @ patch.origin_m, turn @ patch.rotation
 
@@ -156,7 +156,3 @@ def _quaternion_to(direction: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.array([0.0, 1.0, 0.0, 0.0])
     quaternion = np.array([1.0 + z, -y, x, 0.0])
     return quaternion / np.linalg.norm(quaternion)
-
-
-def _id(model: mujoco.MjModel, kind: mujoco.mjtObj, name: str) -> int:
-    return int(mujoco.mj_name2id(model, kind, name))

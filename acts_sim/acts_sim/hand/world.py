@@ -139,12 +139,15 @@ class HandWorld:
         ]
         self.bus: Bus = Bus(self.motors)
         self.blocked: set[int] = set()
-        joints = [_joint(self._model, name) for _, name in sorted((link.motor_id, link.joint) for link in LINKS)]
+        joints = [
+            hand_model.joint_index(self._model, name)
+            for _, name in sorted((link.motor_id, link.joint) for link in LINKS)
+        ]
         self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
         self._dof = np.array([self._model.jnt_dofadr[joint] for joint in joints])
         # The object's joint is the last one of the model.
-        self._body = _body(self._model, hand_model.OBJECT)
-        tip_body = _body(self._model, hand_model.TIP)
+        self._body = hand_model.body_index(self._model, hand_model.OBJECT)
+        tip_body = hand_model.body_index(self._model, hand_model.TIP)
         solids = solids_of(self._thing, max(self._body, 0), tip_body, config.unevenness_m)
         self._skin = Skin(self._model, self.layout, solids, config, rng)
         self.tip = Tip(self._model, self._data, solids[-1], self.layout, config.cover_m)
@@ -205,7 +208,7 @@ class HandWorld:
             self.holder.hold(self._data.xpos[self._body], self._data.xquat[self._body])
 
     def _require_links(self) -> None:
-        strange = [patch.link for patch in self.layout.patches if _body(self._model, patch.link) < 0]
+        strange = [patch.link for patch in self.layout.patches if hand_model.body_index(self._model, patch.link) < 0]
         if strange:
             links = ", ".join([PALM, *(link.name for link in LINKS)])
             raise SettingsError(
@@ -233,7 +236,7 @@ class HandWorld:
         data = self._data
         data.qpos[self._q] = truth.q_rad
         if self._thing is not None:
-            start = self._model.jnt_qposadr[_joint(self._model, hand_model.OBJECT)]
+            start = self._model.jnt_qposadr[hand_model.joint_index(self._model, hand_model.OBJECT)]
             data.qpos[start : start + 7] = (*truth.object_position_m, *truth.object_quaternion)
         mujoco.mj_kinematics(self._model, data)
 
@@ -321,11 +324,3 @@ class HandWorld:
         patches[:] = self._skin.results
         patches[:, 1] /= np.maximum(patches[:, 0], 1e-12)
         return row
-
-
-def _joint(model: mujoco.MjModel, name: str) -> int:
-    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name))
-
-
-def _body(model: mujoco.MjModel, name: str) -> int:
-    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 from acts_sim.hand import HandWorld
+from acts_sim.hand.model import body_index
 
 _MAX_GEOMS = 2500
 _DOT_M = 0.0009
@@ -112,7 +113,7 @@ class HandPicture:
         world, scene = self._world, self._scene
         turn = np.eye(3).ravel()
         for patch in world.layout.patches:
-            body = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_BODY, patch.link)
+            body = body_index(world.model, patch.link)
             rotation = world.data.xmat[body].reshape(3, 3)
             points = patch.points_m().reshape(-1, 3) @ rotation.T + world.data.xpos[body]
             shares = np.clip(counts[patch.of(world.layout.taxels).ravel()] / 400.0, 0.0, 1.0)
