@@ -84,19 +84,24 @@ def forces_n(
 class BallContact:
     """Counts of all taxels under a ball, computed in place for speed.
 
+    Parameters
+    ----------
+    config : ContactConfig
+    geometry : ArrayGeometry
+    radius_m : float
+        Of the ball.
+
     Attributes
     ----------
     counts : np.ndarray [shape=(rows, cols), dtype=float64]
         ADC counts of the last `press`, before noise and rounding.
     """
 
-    def __init__(
-        self, config: ContactConfig, geometry: ArrayGeometry, radius_m: float, response: ForceResponse | None = None
-    ) -> None:
+    def __init__(self, config: ContactConfig, geometry: ArrayGeometry, radius_m: float) -> None:
         self._config = config
         self._geometry = geometry
         self._radius_m = radius_m
-        self._response = response or ForceResponse()
+        self._response = ForceResponse()
         self.counts = np.zeros((geometry.rows, geometry.cols))
 
     def press(self, x_m: float, y_m: float, load_n: float) -> None:

@@ -89,12 +89,11 @@ class Skin:
         solids: NDArray[np.void],
         config: SkinConfig,
         rng: np.random.Generator,
-        response: ForceResponse | None = None,
     ) -> None:
         taxels = layout.matrix_rows * layout.matrix_cols
         self.forces_n = np.zeros(taxels)
         self.results = np.zeros((len(layout.patches), PATCH_RESULTS))
-        self._response = response or ForceResponse()
+        self._response = ForceResponse()
         self._gain = np.maximum(1.0 + config.gain_spread * rng.standard_normal(taxels), 0.1)
         self._counts = np.zeros(taxels)
         self._solids = solids

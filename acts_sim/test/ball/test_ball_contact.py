@@ -21,7 +21,7 @@ RESPONSE = ForceResponse()
 
 
 def contact(config: ContactConfig = CONFIG, geometry: ArrayGeometry = GEOMETRY) -> BallContact:
-    return BallContact(config, geometry, RADIUS_M, RESPONSE)
+    return BallContact(config, geometry, RADIUS_M)
 
 
 def centre_m(field_n: np.ndarray, geometry: ArrayGeometry = GEOMETRY) -> tuple[float, float]:
