@@ -79,6 +79,23 @@ def test_a_silent_skin_is_first_stale_then_lost_and_the_other_goes_on() -> None:
     assert (skin.state, skin.frame) == (SkinState.FRESH, "right 1002")
 
 
+def test_of_a_slow_skin_the_limits_follow_its_rate() -> None:
+    aligner = make()
+    states = []
+    for time_ms in range(2000, 2000 + 5 * 200, 10):
+        if time_ms % 200 == 0:
+            stream(aligner, "right", time_ms, time_ms + 1)
+        stream(aligner, "left", time_ms - 10, time_ms)
+        states.append(by_name(aligner.step(NOW + time_ms * MS))["right"].state)
+    # Its second frame tells its rate.
+    assert set(states[21:]) == {SkinState.FRESH}
+    for after_ms, state in ((490, SkinState.FRESH), (510, SkinState.STALE), (1010, SkinState.LOST)):
+        stream(aligner, "left", 2800 + after_ms - 10, 2800 + after_ms)
+        skin = by_name(aligner.step(NOW + (2800 + after_ms) * MS))["right"]
+        assert skin.state is state
+    assert skin.stale_after_s == pytest.approx(0.5)
+
+
 def test_a_skin_that_never_came_is_lost() -> None:
     aligner = make()
     stream(aligner, "left", 0, 3)

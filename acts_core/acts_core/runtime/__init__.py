@@ -10,6 +10,7 @@ from acts_core.runtime import background
 from acts_core.runtime.addresses import is_loopback
 from acts_core.runtime.background import begin, is_done, within_patience
 from acts_core.runtime.late_frames import LateFrames, Use
+from acts_core.runtime.pace import Pace
 from acts_core.runtime.port_words import errno_of, not_opened, path_shown, port_shown, ports_present
 from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
@@ -23,6 +24,7 @@ __all__ = [
     "LateFrames",
     "LogCallback",
     "Order",
+    "Pace",
     "RateLimit",
     "RealtimeConfig",
     "SequenceNumbers",

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
+from acts_core.runtime import Pace
 from acts_core.settings import setting, validate
 from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
@@ -141,6 +142,8 @@ class BaselineTracker:
         self._blocks = [_Block(size) for _ in range(self.config.calibration_blocks + 1)]
         self._growing = 0
         self._growing_since_ns = -1
+        # Of the blocks: those of a slow board begin with each of its frames.
+        self._pace = Pace()
         self._whole = 0
         self._baseline = np.zeros(size, dtype=np.float32)
         self._noise = np.zeros(size, dtype=np.float32)
@@ -285,7 +288,8 @@ class BaselineTracker:
             # The clock was set back: no taxel is kept as it is for longer than after a touch now.
             latest_ns = time_ns + int(self.config.hold_s * _NS_PER_S)
             np.minimum(self._frozen_until_ns, latest_ns, out=self._frozen_until_ns)
-        if self._growing_since_ns >= 0 and 0 <= since_ns < 2 * self._block_ns:
+        self._pace.step(time_ns * 1e-9)
+        if self._growing_since_ns >= 0 and 0 <= since_ns < self._pace.limit_s(2 * self.config.tare_s) * _NS_PER_S:
             self._growing = (self._growing + 1) % len(self._blocks)
             self._whole = min(self._whole + 1, len(self._blocks) - 1)
         else:

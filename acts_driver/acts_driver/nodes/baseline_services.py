@@ -17,7 +17,7 @@ from std_srvs.srv import Trigger
 from acts_core.errors import ActsError, CalibrationError, SettingsError
 from acts_core.files import is_there, path_of
 from acts_core.frames import SampleFrame
-from acts_core.runtime import within_patience
+from acts_core.runtime import Pace, within_patience
 from acts_core.settings import is_given
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
@@ -28,7 +28,7 @@ from acts_ros.qos import LATCHED, overridable
 
 _PUBLISH_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
-# Older frames do not show the present skin [s].
+# Older frames do not show the present skin, unless they come as rarely [s].
 _FRESH_S = 0.5
 
 _WaitFor = Callable[[Callable[[], Baseline | None], str], Baseline | None]
@@ -62,7 +62,7 @@ class BaselineServices:
         self._path: Path | None = None
         self._tracker: BaselineTracker
         self._published: Baseline | None = None
-        self._heard_s: float | None = None
+        self._pace = Pace()
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
@@ -90,7 +90,7 @@ class BaselineServices:
 
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
         self._published = None
-        self._path, self._tracker, self._heard_s = path, tracker, None
+        self._path, self._tracker, self._pace = path, tracker, Pace()
         if baseline is not None:
             tracker.set(baseline)
             self._publish(baseline)
@@ -105,12 +105,12 @@ class BaselineServices:
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Update the baseline by frames with their stamps [ns], on the reader's thread."""
         if frames:
-            self._heard_s = time.monotonic()
+            self._pace.step(time.monotonic(), len(frames))
             self._tracker.observe(frames)
 
     def end(self) -> None:
         """Tell that no frames come from now on: what is remembered is not the present skin, however young."""
-        self._heard_s = None
+        self._pace = Pace()
 
     def values(self) -> dict[str, object]:
         """What the driver's diagnostics say of the baseline."""
@@ -157,12 +157,13 @@ class BaselineServices:
 
     def _require_frames(self) -> None:
         """Raise where no frames arrive: the remembered ones do not show the present skin."""
-        if self._heard_s is None:
+        heard_s, now_s = self._pace.last_s, time.monotonic()
+        if heard_s is None:
             raise CalibrationError("no frames: is the driver configured, and does the board send?")
-        silent_s = time.monotonic() - self._heard_s
-        if silent_s > _FRESH_S:
+        if self._pace.is_silent(now_s, _FRESH_S):
             raise CalibrationError(
-                f"no frames for {silent_s:.1f} s: the driver's diagnostics tell why; call again when they are back"
+                f"no frames for {now_s - heard_s:.1f} s: the driver's diagnostics tell why; call again when they are "
+                "back"
             )
 
     def _answer(self, response: Trigger.Response, success: bool, message: str) -> Trigger.Response:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from acts_core.runtime import LogCallback
+from acts_core.runtime import LogCallback, Pace
 from acts_core.words import counted
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_driver.port import Reader, Source
@@ -99,6 +99,7 @@ class DriverReport:
         self._stream = stream
         self._expected_size = expected_size
         self._before = Totals()
+        self._pace = Pace()
 
     def totals(self) -> Totals:
         """Present counters."""
@@ -134,9 +135,13 @@ class DriverReport:
         totals = self.totals()
         added = totals.since(self._before)
         self._before = totals
+        if added.frames:
+            self._pace.step(now_ns * 1e-9, added.frames)
+        # Of a slow board's frames none may fall into the time since the last call.
+        is_silent = not added.frames and self._pace.is_silent(now_ns * 1e-9)
         rate_hz = self._stream.statistics.rate_hz(now_ns)
-        level, message = self._judge(added, f"{rate_hz:.1f} frames/s, {state}")
-        self._tell_silence(added, message)
+        level, message = self._judge(added, f"{rate_hz:.1f} frames/s, {state}", is_silent=is_silent)
+        self._tell_silence(added, message, is_silent=is_silent)
         board = BoardStatus() if self._session is None else self._session.status
         if self._session is not None and self._reader.connected:
             level, message = _with_board(level, message, board, is_needed=self._session.asks_for_something)
@@ -153,9 +158,9 @@ class DriverReport:
         values["state"] = state
         return level, message, values
 
-    def _tell_silence(self, added: Totals, message: str) -> None:
+    def _tell_silence(self, added: Totals, message: str, *, is_silent: bool) -> None:
         """Log silence: a user who starts a driver reads the screen before the diagnostics."""
-        if added.frames or not self._reader.connected:
+        if not is_silent or not self._reader.connected:
             if added.frames and self._silent_reports >= _SILENT_REPORTS:
                 self._log("info", f"frames again: {message}")
             self._silent_reports = 0
@@ -164,7 +169,7 @@ class DriverReport:
         if self._silent_reports == _SILENT_REPORTS:
             self._log("info" if self._source.silence else "error", message)
 
-    def _judge(self, added: Totals, fine: str) -> tuple[int, str]:
+    def _judge(self, added: Totals, fine: str, *, is_silent: bool) -> tuple[int, str]:
         if not self._reader.connected:
             return ERROR, self._reader.problem or f"{self._source.name} is closed"
         troubles = [counted(getattr(added, name), *words) for name, words in _TROUBLES.items() if getattr(added, name)]
@@ -177,17 +182,17 @@ class DriverReport:
             )
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
-        elif added.frames == 0 and added.bytes_discarded and self._decoder.last_error:
+        elif is_silent and added.bytes_discarded and self._decoder.last_error:
             # What never ends a packet is counted once, and goes on.
             troubles.append(f"{counted(added.bytes_discarded, 'byte')} without one: {self._decoder.last_error}")
         delay_us = self._stream.clock.state.delay_us if self._stream.has_board_clock else 0.0
         if delay_us > _LATE_US:
             late = f"frames are read {delay_us / 1e6:.1f} s late"
             troubles.insert(0, f"{late}: this machine is too slow or too busy (acts doctor tells)")
-        if added.frames == 0:
+        if is_silent:
             why = f" ({self._source.silence})" if self._source.silence else ""
             return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])
-        if added.frames == added.wrong_size:
+        if added.frames == added.wrong_size > 0:
             return ERROR, ", ".join(troubles)
         if troubles:
             return WARN, ", ".join(troubles)

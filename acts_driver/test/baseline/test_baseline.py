@@ -99,6 +99,16 @@ def test_a_pause_of_the_stream_begins_anew() -> None:
     assert skin.tracker.calibrate().valid.all()
 
 
+def test_of_a_slow_stream_each_frame_counts() -> None:
+    skin = Skin(noise=0.0)
+    for _ in range(12):
+        skin.run(0.01)
+        skin.now_ns += 1_000_000_000 - FRAME_NS
+    assert skin.tracker.tare().baseline.valid.all()
+    with pytest.raises(CalibrationError, match="8 times in the last 1 s: raise the frame rate"):
+        skin.tracker.calibrate()
+
+
 def test_a_clock_that_is_set_back_lets_no_taxel_stay_frozen() -> None:
     skin = Skin()
     skin.run(2.5)

@@ -37,18 +37,19 @@ class Stream(threading.Thread):
     def __init__(self, board: PtyBoard) -> None:
         super().__init__(daemon=True)
         self.field = np.full(SIZE, 25, dtype=np.uint16)
+        self.frame_s = FRAME_S
+        self.sent = 0
         self.board = board
         self.ended = threading.Event()
 
     def run(self) -> None:
-        sequence = 0
         indices = np.arange(SIZE, dtype=np.uint16)
-        while not self.ended.wait(FRAME_S):
-            counts = self.field + np.uint16(sequence % 2)
+        while not self.ended.wait(self.frame_s):
+            sequence, counts = self.sent, self.field + np.uint16(self.sent % 2)
             # Counted by frames, the clock of a loaded machine's board would run slow, and be set anew again and again.
             board_us = time.monotonic_ns() // 1000
             self.board.write_frames(SampleFrame(sequence, board_us, 900, Scheme.RASTER, ROWS, COLS, 0, indices, counts))
-            sequence += 1
+            self.sent += 1
 
 
 @pytest.fixture
@@ -268,3 +269,14 @@ def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
     assert not answer.success
     assert answer.message.startswith("calibrated until the driver ends, but not stored: ")
     rig.status_until(lambda status: status.get("baseline") == "calibration", "the report")
+
+
+def test_a_slow_board_can_be_tared_at_any_time(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    stream.frame_s = 0.7
+    start(rig, stream, tmp_path / "none.npz")
+    stream.start()
+    ask_until(rig, "tare", lambda answer: bool(answer.success), "a tare")
+    # Also shortly before the next frame.
+    until = stream.sent + 2
+    while stream.sent < until:
+        assert ask(rig, "tare").success

@@ -15,7 +15,7 @@ from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.nodes.report import DriverReport
 from acts_driver.port import Reader, SerialSource
 from acts_driver.stream import FrameStream
-from acts_ros.diagnostics import ERROR, WARN
+from acts_ros.diagnostics import ERROR, OK, WARN
 
 MS = 1_000_000
 NO_TAXELS = np.empty(0, dtype=np.uint16)
@@ -56,6 +56,28 @@ def test_frames_that_are_read_late_are_told() -> None:
     receive(116, 1, late_ms=0)
     _, message, _ = report.make("active", 2600 * MS)
     assert "late" not in message
+
+
+def test_a_slow_board_is_not_silent_between_two_frames() -> None:
+    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
+    stream, logged = FrameStream(32, 32), []
+    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
+    reader.connected = True
+    report = DriverReport(
+        source, reader, decoder, stream, (32, 32), log=lambda level, message: logged.append((level, message))
+    )
+    levels = []
+    # A frame a second, now before and now after the report of that second.
+    for second, late_ms in enumerate((0, 0, 0, 0, 30, 30, 0, 0)):
+        frame = SampleFrame(second, 1_000_000 * second, 900, Scheme.RANDOM, 32, 32, 0, NO_TAXELS, NO_TAXELS)
+        if late_ms:
+            levels.append(report.make("active", (1010 + 1000 * second) * MS)[0])
+        stream.accept([frame], (1000 + 1000 * second + late_ms) * MS)
+        if not late_ms:
+            levels.append(report.make("active", (1010 + 1000 * second) * MS)[0])
+    assert levels == [OK] * 8
+    assert report.make("active", 11_500 * MS)[:2] == (ERROR, "no frames from /dev/ttyACM0")
+    assert logged == []
 
 
 @pytest.mark.usefixtures("eager_threads")

@@ -12,6 +12,7 @@ from enum import Enum
 from typing import Generic, TypeVar
 
 from acts_core.errors import SettingsError
+from acts_core.runtime import Pace
 from acts_core.settings import setting, validate
 
 F = TypeVar("F")
@@ -19,6 +20,8 @@ F = TypeVar("F")
 _NS_PER_S = 1_000_000_000
 # Limit of frames that wait for other skins: more than any `align_s` needs at 1 kHz.
 _MAX_WAITING = 1024
+# Intervals between the frames of a slow skin after which it is lost.
+_LOST_INTERVALS = 5.0
 
 
 @dataclass(frozen=True)
@@ -32,11 +35,15 @@ class AlignmentConfig:
         maximum=1.0,
     )
     stale_after_s: float = setting(
-        0.1, "a skin is stale when its newest contacts are older than this [s]", minimum=0.001, maximum=10.0
+        0.1,
+        "a skin is stale when its newest contacts are older than this [s], and than 2.5 intervals between its frames",
+        minimum=0.001,
+        maximum=10.0,
     )
     lost_after_s: float = setting(
         0.5,
-        "a skin is lost, and its contacts are no longer published, when they are older than this [s]",
+        "a skin is lost, and its contacts are no longer published, when they are older than this [s], and than 5 "
+        "intervals between its frames",
         minimum=0.001,
         maximum=60.0,
     )
@@ -79,6 +86,8 @@ class AlignedSkin(Generic[F]):
         The newest frame at or before the common time; None if and only if the skin is lost.
     silent_s : float or None
         Time since the newest stamp of the skin [s]; None where none of its frames was in time yet.
+    stale_after_s : float
+        The age from which on this skin is stale, by its rate [s].
     """
 
     name: str
@@ -87,6 +96,7 @@ class AlignedSkin(Generic[F]):
     age_s: float
     frame: F | None
     silent_s: float | None
+    stale_after_s: float
 
 
 @dataclass(frozen=True)
@@ -125,6 +135,7 @@ class _Skin(Generic[F]):
     waiting: deque[tuple[int, F]] = field(default_factory=lambda: deque(maxlen=_MAX_WAITING))
     chosen: tuple[int, F] | None = None
     newest_ns: int | None = None
+    pace: Pace = field(default_factory=Pace)
 
 
 class Aligner(Generic[F]):
@@ -149,8 +160,6 @@ class Aligner(Generic[F]):
 
     def __init__(self, names: Sequence[str], config: AlignmentConfig) -> None:
         self._config = config
-        self._stale_ns = round(config.stale_after_s * _NS_PER_S)
-        self._lost_ns = round(config.lost_after_s * _NS_PER_S)
         self._align_ns = round(config.align_s * _NS_PER_S)
         self._future_ns = round(config.future_s * _NS_PER_S)
         self._skins: dict[str, _Skin[F]] = {name: _Skin() for name in names}
@@ -184,6 +193,7 @@ class Aligner(Generic[F]):
             counters.out_of_order += 1
         else:
             skin.newest_ns = stamp_ns
+            skin.pace.step(stamp_ns / _NS_PER_S)
             skin.waiting.append((stamp_ns, frame))
 
     def step(self, now_ns: int) -> Aligned[F]:
@@ -192,30 +202,33 @@ class Aligner(Generic[F]):
         fresh = [
             skin.newest_ns
             for skin in self._skins.values()
-            if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_ns
+            if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_after_s(skin) * _NS_PER_S
         ]
         # Without a fresh skin, the remaining frames are returned with the present time.
         time_ns = max(min(fresh), max(fresh) - self._align_ns) if fresh else now_ns
         self._time_ns = max(self._time_ns, time_ns)
         return Aligned(self._time_ns, tuple(self._aligned(name, skin, now_ns) for name, skin in self._skins.items()))
 
+    def _stale_after_s(self, skin: _Skin[F]) -> float:
+        return skin.pace.limit_s(self._config.stale_after_s)
+
     def _aligned(self, name: str, skin: _Skin[F], now_ns: int) -> AlignedSkin[F]:
         while skin.waiting and skin.waiting[0][0] <= self._time_ns:
             skin.chosen = skin.waiting.popleft()
-        if skin.newest_ns is None:
-            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, None)
-        silent_ns = max(now_ns - skin.newest_ns, 0)
-        silent_s = silent_ns / _NS_PER_S
-        if silent_ns > self._lost_ns:
+        stale_after_s = self._stale_after_s(skin)
+        silent_s = None if skin.newest_ns is None else max(now_ns - skin.newest_ns, 0) / _NS_PER_S
+        if silent_s is not None and silent_s > skin.pace.limit_s(self._config.lost_after_s, _LOST_INTERVALS):
             skin.chosen = None
-            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s)
-        if skin.chosen is None:
+        elif skin.chosen is None:
             # A skin has just come (again), and its first frame is newer than the common time. It is not fresh yet:
             # fresh and without contacts would mean untouched, which nobody knows.
-            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, None)
-        state = SkinState.FRESH if silent_ns <= self._stale_ns else SkinState.STALE
+            silent_s = None
+        if silent_s is None or skin.chosen is None:
+            return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s, stale_after_s)
+        state = SkinState.FRESH if silent_s <= stale_after_s else SkinState.STALE
         stamp_ns, frame = skin.chosen
-        return AlignedSkin(name, state, stamp_ns, max(now_ns - stamp_ns, 0) / _NS_PER_S, frame, silent_s)
+        age_s = max(now_ns - stamp_ns, 0) / _NS_PER_S
+        return AlignedSkin(name, state, stamp_ns, age_s, frame, silent_s, stale_after_s)
 
     def _look_at_clock(self, now_ns: int) -> None:
         """Reset where the clock was set back, since all stamps would lie in the future."""

@@ -80,7 +80,6 @@ class SkinContactsNode(PollingNode):
         }
         self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **qos.overridable(qos.STREAM))
         self._clock = self.get_clock()
-        self._stale_after_s = settings.stale_after_s
         self._there: set[str] = set()
         self._refused: Counter[tuple[str, str]] = Counter()
         self._foreign_frames: dict[str, str] = {}
@@ -167,7 +166,7 @@ class SkinContactsNode(PollingNode):
     def _why(self, skin: AlignedSkin[bytes], counters: Counters) -> str:
         """Why a skin is stale or lost, by what came of it since the last report."""
         before = self._received_before[skin.name]
-        if counters.frames > before.frames and counters.late_s > self._stale_after_s:
+        if counters.frames > before.frames and counters.late_s > skin.stale_after_s:
             return (
                 f"its contacts are {counters.late_s:.3g} s old when they come: its clock lies behind "
                 f"{self._clock_name()}, or a machine has too little CPU"

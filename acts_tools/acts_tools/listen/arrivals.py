@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from acts_core.runtime import StreamCounter
+from acts_core.runtime import Pace, StreamCounter
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,8 @@ class Interval:
         The same counts since the start.
     silent_s : float or None
         Time since the last message [s]; None before the first.
+    is_silent : bool
+        Whether that is longer than usual, see `acts_core.runtime.Pace`.
     """
 
     seconds: float
@@ -40,6 +42,7 @@ class Interval:
     total_received: int
     total_lost: int | None
     silent_s: float | None
+    is_silent: bool
 
 
 @dataclass
@@ -56,14 +59,14 @@ class Arrivals:
     _received: int = 0
     _reported: int = 0
     _reported_lost: int = 0
-    _last_s: float | None = None
+    _pace: Pace = field(default_factory=Pace)
     _counter: StreamCounter = field(default_factory=StreamCounter)
     _ages_s: list[float] = field(default_factory=list)
 
     def add(self, now_s: float, sequence: int | None, age_s: float | None) -> None:
         """Add a message; `sequence` and `age_s` [s] are None where it has none."""
         self._received += 1
-        self._last_s = now_s
+        self._pace.step(now_s)
         if age_s is not None:
             self._ages_s.append(age_s)
         if sequence is not None:
@@ -82,7 +85,8 @@ class Arrivals:
             largest_ms=round(float(ages_ms.max()), 3) if ages_ms.size else None,
             total_received=self._received,
             total_lost=self._counter.lost if is_numbered else None,
-            silent_s=None if self._last_s is None else now_s - self._last_s,
+            silent_s=None if self._pace.last_s is None else now_s - self._pace.last_s,
+            is_silent=self._pace.is_silent(now_s),
         )
         self.begin_s = now_s
         self._reported, self._reported_lost = self._received, self._counter.lost

@@ -105,7 +105,7 @@ def in_words(interval: Interval | None) -> str:
     """One line about a topic; `interval` is None where there is no publisher."""
     if interval is None:
         return "no publisher found yet"
-    if not interval.received:
+    if not interval.received and interval.is_silent:
         if interval.silent_s is None:
             return "nothing yet"
         return f"nothing for {interval.silent_s:.1f} s, {counted(interval.total_received, 'message')} before"

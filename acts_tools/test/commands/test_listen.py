@@ -86,6 +86,15 @@ def test_what_arrives_is_put_into_words() -> None:
     assert in_words(arrivals.take(4.6)) == "nothing for 3.0 s, 501 messages before"
 
 
+def test_a_slow_topic_is_not_silent_between_two_messages() -> None:
+    arrivals = Arrivals(0.0)
+    for now_s in (0.4, 1.4, 2.4, 3.4):
+        arrivals.add(now_s, None, None)
+    arrivals.take(3.5)
+    assert in_words(arrivals.take(4.0)).strip() == "0.0 messages/s"
+    assert in_words(arrivals.take(6.0)) == "nothing for 2.6 s, 4 messages before"
+
+
 def test_the_complaint_of_a_node_that_has_fallen_silent_is_told_with_its_age(monkeypatch: pytest.MonkeyPatch) -> None:
     now_s = 10.0
     monkeypatch.setattr("acts_tools.listen.listener.time.monotonic", lambda: now_s)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
+from acts_core.runtime import Pace
 from acts_core.sampling import SamplingConfig
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineTracker
@@ -228,7 +229,7 @@ class BoardSource:
         self._intake = Intake(driver, self._source, self._take, log=log, on_board=lambda _: None)
         self._told: dict[str, Any] = {}
         self._told_s = -_DIAGNOSTICS_PERIOD_S
-        self._heard_s = time.monotonic()
+        self._pace = Pace()
         self._feed: BoardFeed | None = None
         self._recording = (
             None if record_dir is None else Recording(record_dir, _RECORD_BYTES_MAX, lambda: [name], self._begin, log)
@@ -275,11 +276,10 @@ class BoardSource:
         return None if self._recording is None else self._recording.file(name)
 
     def _tare(self) -> str:
-        silent_s = time.monotonic() - self._heard_s
-        if silent_s > _FRESH_S:
-            raise ViewRequestError(
-                f"no frames for {silent_s:.1f} s: the line of the driver tells why; tare when they are back"
-            )
+        heard_s, now_s = self._pace.last_s, time.monotonic()
+        if self._pace.is_silent(now_s, _FRESH_S):
+            since = "yet" if heard_s is None else f"for {now_s - heard_s:.1f} s"
+            raise ViewRequestError(f"no frames {since}: the line of the driver tells why; tare when they are back")
         try:
             tare = self._tracker.tare()
         except ActsError as error:
@@ -299,7 +299,7 @@ class BoardSource:
 
     def _take(self, frames: Sequence[tuple[SampleFrame, int]], _results: object) -> None:
         if frames:
-            self._heard_s = time.monotonic()
+            self._pace.step(time.monotonic(), len(frames))
         self._tracker.observe(frames)
         self.skin.take(frames, time.time_ns())
         feed = self._feed
