@@ -16,6 +16,7 @@ from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import SequenceNumbers
 from acts_recon.contacts import Contact
+from acts_recon.frame_order import FrameOrder
 from acts_recon.images import BaselineSubtraction
 from acts_recon.settings import ReconstructionConfig
 
@@ -63,6 +64,7 @@ class FramePipeline:
         self._forget_more = forget
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
         self._numbers = SequenceNumbers()
+        self._order = FrameOrder()
         self._last = (-1, -1)
         self._touch_counts = settings.touch_counts
         # Baselines come on another thread than frames.
@@ -76,6 +78,11 @@ class FramePipeline:
     def lost(self) -> int:
         """Frames missing so far; see `SequenceNumbers`."""
         return self._numbers.lost
+
+    @property
+    def source_changes(self) -> int:
+        """How often frames of two sources came in turn; see `FrameOrder`."""
+        return self._order.changes
 
     @property
     def subtracts(self) -> bool:
@@ -105,6 +112,7 @@ class FramePipeline:
         """Forget all frames: the next one is long after or before, or of another board."""
         self._forget()
         self._numbers = SequenceNumbers()
+        self._order = FrameOrder()
         self._last = (-1, -1)
 
     def step(self, frame: SampleFrame, stamp_ns: int) -> int:
@@ -157,7 +165,7 @@ class FramePipeline:
                 "number and a stamp of its own: is its topic published twice?"
             )
         self._last = this
-        if self._numbers.goes_back(frame.sequence):
+        if self._order.step(frame.sequence, frame.board_us):
             self._forget()
         return self._numbers.step(frame.sequence)
 

@@ -44,10 +44,6 @@ class SequenceNumbers:
         self._received = 0
         self._places: deque[_Place] = deque(maxlen=_PLACES)
 
-    def goes_back(self, sequence: int) -> bool:
-        """Whether a number lies before the last one, or is the same."""
-        return self._last is not None and (sequence - self._last - 1) % _MODULUS >= _HALF
-
     def step(self, sequence: int) -> int:
         """Count a message.
 

@@ -52,13 +52,6 @@ def test_of_one_source_every_gap_counts(numbers: tuple[int, ...], missing: list[
     assert followed(numbers) == (missing, sum(missing))
 
 
-def test_what_goes_back_is_told() -> None:
-    stream = SequenceNumbers()
-    assert not stream.goes_back(5)
-    stream.step(MODULUS - 1)
-    assert [stream.goes_back(number) for number in (0, 100, MODULUS - 1, MODULUS - 2)] == [False, False, True, True]
-
-
 @given(st.integers(0, MODULUS - 1), st.lists(st.integers(1, 2**20), max_size=40))
 def test_losses_of_one_source_add_up(first: int, steps: list[int]) -> None:
     numbers = [first]

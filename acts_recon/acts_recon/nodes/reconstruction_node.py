@@ -92,7 +92,7 @@ class ReconstructionNode(Node):
         self._rejected: Counter[str] = Counter()
         self._rejected_due: defaultdict[str, RateLimit] = defaultdict(lambda: RateLimit(_REJECTED_TOLD_HZ))
         self._durations_s: deque[float] = deque(maxlen=1000)
-        self._reported = (time.monotonic(), 0, 0, 0, 0)
+        self._reported = (time.monotonic(), 0, 0, 0, 0, 0)
         self._pace = Pace()
 
         self._look_for_subscribers()
@@ -269,8 +269,9 @@ class ReconstructionNode(Node):
     def _report(self) -> Report:
         now_s = time.monotonic()
         rejected = self._rejected.total()
-        before_s, frames, rejected_before, lost_before, untold_before = self._reported
-        self._reported = (now_s, self._frames, rejected, self._pipeline.lost, self._untold)
+        changes = self._pipeline.source_changes
+        before_s, frames, rejected_before, lost_before, untold_before, changes_before = self._reported
+        self._reported = (now_s, self._frames, rejected, self._pipeline.lost, self._untold, changes)
         new_frames, new_rejected = self._frames - frames, rejected - rejected_before
         new_lost, new_untold = self._pipeline.lost - lost_before, self._untold - untold_before
         rate_hz = new_frames / max(now_s - before_s, 1e-9)
@@ -282,6 +283,7 @@ class ReconstructionNode(Node):
             "rate_hz": rate_hz,
             "frames": self._frames,
             "lost": self._pipeline.lost,
+            "source_changes": changes,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.repeated": self._rejected["repeated"],
@@ -298,6 +300,9 @@ class ReconstructionNode(Node):
         # Of a slow board's frames none may fall into the time since the last report.
         if not new_frames and self._pace.is_silent(now_s):
             return WARN, "no samples", values
+        if changes > changes_before:
+            words = "frames of two sources come in turn, and each change is taken for another board: end all but one"
+            return WARN, f"{words} that publishes {self.resolve_topic_name('samples')}", values
         # What came after all was counted before.
         if new_lost > 0:
             words = counted(new_lost, "frame lost before it came here", "frames lost before they came here")

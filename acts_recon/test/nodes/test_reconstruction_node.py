@@ -264,6 +264,8 @@ def test_frames_of_two_boards_that_mix_are_not_lost(make_bench: Callable[..., Be
             bench.send(first + step, indices, indices)
     bench.until(lambda: len(bench.received["contact"]) == 40)
     bench.diagnostics(lambda status, values: values["frames"] == "40" and values["lost"] == "0")
+    words = "frames of two sources come in turn"
+    bench.diagnostics(lambda status, _: status.level == b"\x01" and status.message.startswith(words))
 
 
 def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: Callable[..., Bench]) -> None:
