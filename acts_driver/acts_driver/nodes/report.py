@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from acts_core.runtime import LogCallback, Pace
 from acts_core.words import counted
@@ -61,6 +61,8 @@ _TROUBLES = {
 }
 # As late as this, a controller does without touch.
 _LATE_US = 50_000
+# Where frames come as rarely, none may fall into the second of a report.
+_SLOW_S = 0.4
 # The first report may come before the first frame.
 _SILENT_REPORTS = 2
 
@@ -133,12 +135,14 @@ class DriverReport:
             The clock that frames are given their arrival with [ns].
         """
         totals = self.totals()
+        if not self._before.frames:
+            self._before = replace(self._before, overruns=self._stream.statistics.overruns_before)
         added = totals.since(self._before)
         self._before = totals
         if added.frames:
             self._pace.step(now_ns * 1e-9, added.frames)
-        # Of a slow board's frames none may fall into the time since the last call.
-        is_silent = not added.frames and self._pace.is_silent(now_ns * 1e-9)
+        is_slow = self._pace.interval_s > _SLOW_S
+        is_silent = not added.frames and not (is_slow and not self._pace.is_silent(now_ns * 1e-9))
         rate_hz = self._stream.statistics.rate_hz(now_ns)
         level, message = self._judge(added, f"{rate_hz:.1f} frames/s, {state}", is_silent=is_silent)
         self._tell_silence(added, message, is_silent=is_silent)

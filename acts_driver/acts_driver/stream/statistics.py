@@ -34,6 +34,8 @@ class StreamStatistics:
         Restarts of the board. Its sequence starts anew then, and no frame counts as lost.
     overruns : int
         Frames the board dropped because the host did not read, as it said last.
+    overruns_before : int
+        Those of them that were dropped before the first frame came, when nobody may have been there to read.
     lock : threading.Lock
         `FrameStream.accept` holds it while it counts. Another thread that reads several counters holds it too, or one
         may already count a gap of which another does not know yet.
@@ -47,6 +49,7 @@ class StreamStatistics:
         self.repeated = 0
         self.restarts = 0
         self.overruns = 0
+        self.overruns_before = 0
         self._sequence = -1
         self._board_us = 0
         self._measured_ns = 0
@@ -84,6 +87,8 @@ class StreamStatistics:
             else:
                 self.lost += missing
                 self.discarded += missing if self._threw_away else 0
+        else:
+            self.overruns_before = overruns
         self._reconnected = False
         self._threw_away = False
         self._sequence = sequence

@@ -58,6 +58,22 @@ def test_frames_that_are_read_late_are_told() -> None:
     assert "late" not in message
 
 
+def test_what_a_board_dropped_before_anybody_read_it_is_no_warning() -> None:
+    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
+    stream = FrameStream(32, 32)
+    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
+    reader.connected = True
+    report = DriverReport(source, reader, decoder, stream, (32, 32))
+    reports = []
+    for sequence, overruns in ((0, 70_000), (1, 70_000), (2, 70_002)):
+        frame = SampleFrame(sequence, 1000 * sequence, 900, Scheme.RANDOM, 32, 32, overruns, NO_TAXELS, NO_TAXELS)
+        stream.accept([frame], (1000 + sequence) * MS)
+        reports.append(report.make("active", (1000 + sequence) * MS))
+    assert [level for level, _, _ in reports] == [OK, OK, WARN]
+    assert reports[-1][1] == "2 overruns of the board"
+    assert [values["overruns"] for _, _, values in reports] == [70_000, 70_000, 70_002]
+
+
 def test_a_slow_board_is_not_silent_between_two_frames() -> None:
     source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
     stream, logged = FrameStream(32, 32), []
