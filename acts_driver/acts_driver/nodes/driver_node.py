@@ -115,6 +115,9 @@ class DriverNode(LifecycleNode):
         self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._board.publish)
         self._board.session = self.intake.session
         self.intake.start()
+        if self._autostart is not None:
+            # Over also where somebody else has configured the node, who activates it then.
+            self._autostart.stop()
         # Of a recording whose recorder was killed; ports have none.
         note = getattr(source, "note", "")
         if note:

@@ -15,6 +15,7 @@ import pytest
 from driver_rig import Rig, end_process, intake_of, read_until, start_process
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
+from rclpy.lifecycle import TransitionCallbackReturn
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.frames import SampleFrame
@@ -170,6 +171,21 @@ def test_with_autostart_the_driver_waits_for_the_board(tmp_path: Path, rig: Rig)
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
         driver.close()
+
+
+def test_autostart_is_over_once_somebody_else_has_configured_the_driver(
+    tmp_path: Path, rig: Rig, capfd: pytest.CaptureFixture[str]
+) -> None:
+    board = PtyBoard(tmp_path)
+    driver = rig.start_driver(port=board.path, reconnect_s=0.5)
+    rig.status_until(lambda status: status["level"] == "2", "the missing port")
+    with board:
+        assert driver.trigger_configure() == TransitionCallbackReturn.SUCCESS
+        reports = len(rig.statuses)
+        rig.spin_until(lambda: len(rig.statuses) >= reports + 3, "two seconds of reports")
+        assert rig.state() == "inactive"
+        driver.close()
+    assert "Unable to start transition" not in capfd.readouterr().err
 
 
 def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
