@@ -163,6 +163,19 @@ class SkinsFile:
         return placed
 
 
+def skins_of(parameter: str) -> SkinsFile:
+    """Read the file that the parameter `skins_file` of a node names.
+
+    Raises
+    ------
+    SettingsError
+        When it names none, and as of `read_skins`.
+    """
+    if not parameter:
+        raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
+    return read_skins(Path(parameter))
+
+
 def read_skins(path: Path) -> SkinsFile:
     """Read a file of skins.
 

@@ -9,12 +9,11 @@ import time
 from collections import Counter
 from dataclasses import dataclass, replace
 from math import ceil
-from pathlib import Path
 from typing import Any
 
 from rclpy.serialization import deserialize_message
 
-from acts_core.errors import ActsError, PacketError, SettingsError
+from acts_core.errors import ActsError, PacketError
 from acts_core.settings import setting
 from acts_core.words import counted
 from acts_msgs.msg import SkinContact, SkinContacts
@@ -28,7 +27,7 @@ from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, Alignme
 from acts_skins.contacts.cycle import Cycle
 from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
 from acts_skins.contacts.placing import Placement, Touch
-from acts_skins.skins_file import read_skins
+from acts_skins.skins_file import skins_of
 
 _FRAMES_HZ = 1000.0
 # Queues hold the frames of this many cycles, and at least this many frames, in case the node is delayed.
@@ -64,9 +63,7 @@ class SkinContactsNode(PollingNode):
     def __init__(self, **options: Any) -> None:
         super().__init__("skin_contacts", **node_options(), **options)
         settings = declare(self, SkinContactsSettings)
-        if not settings.skins_file:
-            raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
-        skins_file = read_skins(Path(settings.skins_file))
+        skins_file = skins_of(settings.skins_file)
         base_frame = skins_file.merged_in(settings.base_frame)
         self._base_frame = base_frame
         self._links = {skin.name: skin.pose.parent for skin in skins_file.skins}

@@ -7,18 +7,16 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
-from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_ros.clocks import steady_timer
 from acts_ros.parameters import declare, node_options
 from acts_skins.overview.aggregate import Aggregate, Status
-from acts_skins.skins_file import read_skins
+from acts_skins.skins_file import skins_of
 
 _PERIOD_S = 1.0
 _DEPTH = 100
@@ -43,9 +41,7 @@ class SkinDiagnosticsNode(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__("skin_diagnostics", **node_options(), **options)
         settings = declare(self, SkinDiagnosticsSettings)
-        if not settings.skins_file:
-            raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
-        names = [skin.name for skin in read_skins(Path(settings.skins_file)).skins]
+        names = [skin.name for skin in skins_of(settings.skins_file).skins]
         namespace = self.get_namespace().strip("/")
         self._aggregate = Aggregate(names, f"{namespace}/" if namespace else "", stale_after_s=settings.stale_after_s)
         self._array_publisher = self.create_publisher(DiagnosticArray, "/diagnostics_agg", 10)

@@ -8,19 +8,17 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 
-from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_ros import qos
 from acts_ros.parameters import declare, node_options
 from acts_skins.frame_tree import Pose
-from acts_skins.skins_file import read_skins
+from acts_skins.skins_file import skins_of
 
 
 @dataclass(frozen=True)
@@ -42,9 +40,7 @@ class SkinFramesNode(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__("skin_frames", **node_options(), **options)
         settings = declare(self, SkinFramesSettings)
-        if not settings.skins_file:
-            raise SettingsError("skins_file is missing: the YAML file that describes the skins (docs/skins.md)")
-        skins_file = read_skins(Path(settings.skins_file))
+        skins_file = skins_of(settings.skins_file)
         transforms = static_transforms(skins_file.poses(), self.get_clock().now().to_msg())
         # Kept: late joiners get the last message only while its publisher exists.
         self._pose_publishers = []
