@@ -33,7 +33,8 @@ class DiagnosticsReporter:
     report : callable
         Returns the present `Report`.
     only_publishers : sequence of str
-        Topics that this node uses, and that one node is meant to publish; with a second one the level is at least WARN.
+        Topics that one node is meant to publish, this one or one that it listens to; with a second one the level is at
+        least WARN.
 
     Attributes
     ----------

@@ -88,7 +88,9 @@ class DriverNode(LifecycleNode):
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._topics = BoardTopics(self, frame_id)
         self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
-        self._diagnostics = DiagnosticsReporter(self, self._what, self._make_report)
+        self._diagnostics = DiagnosticsReporter(
+            self, self._what, self._make_report, only_publishers=("samples", "baseline")
+        )
         is_autostart = self._settings.autostart
         self._autostart = Autostart(self, self._settings.reconnect_s, self._what) if is_autostart else None
 

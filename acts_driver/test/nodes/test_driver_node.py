@@ -21,6 +21,8 @@ from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.frames import SampleFrame
 from acts_core.wire import encode_frame
 from acts_driver.nodes import report as report_module
+from acts_msgs.msg import TactileSamples
+from acts_ros.qos import STREAM
 
 pytestmark = pytest.mark.slow
 
@@ -171,6 +173,18 @@ def test_with_autostart_the_driver_waits_for_the_board(tmp_path: Path, rig: Rig)
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
         driver.close()
+
+
+def test_a_second_publisher_of_samples_is_told(board: PtyBoard, rig: Rig) -> None:
+    rig.start_driver(port=board.path)
+    rig.wait_until_active()
+    rig.listener.create_publisher(TactileSamples, "samples", STREAM)
+    rig.status_until(
+        lambda status: (
+            "/plate/samples has 2 publishers (/plate/driver, /plate/listener): end all but one" in status["message"]
+        ),
+        "the warning",
+    )
 
 
 def test_autostart_is_over_once_somebody_else_has_configured_the_driver(

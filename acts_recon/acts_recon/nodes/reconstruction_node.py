@@ -97,9 +97,10 @@ class ReconstructionNode(Node):
 
         self._look_for_subscribers()
         steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
-        needed = (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
+        only = ["contact", "contacts", "regions"]
+        only += (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
         self._diagnostics = DiagnosticsReporter(
-            self, self.resolve_topic_name("samples"), self._report, only_publishers=needed
+            self, self.resolve_topic_name("samples"), self._report, only_publishers=only
         )
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))

@@ -240,6 +240,13 @@ def test_samples_that_come_twice_are_dropped_and_told(make_bench: Callable[..., 
     bench.diagnostics(lambda _, values: (values["rejected.repeated"], values["lost"]) == ("1", "0"))
 
 
+def test_a_second_publisher_of_contacts_is_told(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(42)
+    bench.peer.create_publisher(Contact, "contact", qos.STREAM)
+    words = "/plate/contact has 2 publishers (/plate/"
+    bench.diagnostics(lambda status, _: status.level == b"\x01" and words in status.message)
+
+
 def test_frames_lost_are_counted_over_the_wrap_and_not_over_a_restart(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(42)
     indices = np.arange(10)
