@@ -19,7 +19,7 @@ _SETTLED = np.float32(1e-4)
 _TINY = np.float32(1e-12)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _mixture_explains(
     dense: NDArray[np.float32],
     norms_counts: NDArray[np.float32],

@@ -32,7 +32,7 @@ KNOWN_COUNTS = 200.0
 """Standard deviation up to which a taxel is a sample for SRC, which knows no uncertainty."""
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _propose(
     residuals: NDArray[np.float32],
     explained: NDArray[np.float32],
@@ -68,7 +68,7 @@ def _propose(
     return n
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _solve(
     n: int,
     gram: NDArray[np.float64],

@@ -5,6 +5,9 @@
 
 Most of the time goes into finding the atom that correlates most with a residual. All patches of a frame choose their
 first atom together, then their second one, and so on: a block of the dictionary is fetched once for all of them.
+
+All are inlined into those that call them; sums in any order would else differ in the last digits between processes
+(docs/development.md, Rules).
 """
 
 from __future__ import annotations
@@ -33,7 +36,7 @@ FASTMATH = {"nnan", "ninf", "nsz", "contract", "reassoc", "arcp"}
 """What LLVM may do with floats: above all take sums in another order. All values are finite."""
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def pursue(
     blocks: NDArray[np.float32],
     atoms: NDArray[np.float32],
@@ -62,7 +65,7 @@ def pursue(
         i += 1
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def choose(
     blocks: NDArray[np.float32],
     pixels: NDArray[np.uint32],
@@ -94,7 +97,7 @@ def choose(
                 best[problem] = b * BLOCK + column
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _correlate(
     blocks: NDArray[np.float32],
     block: int,
@@ -126,7 +129,7 @@ def _correlate(
         p += 1
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _largest(sums: NDArray[np.float32]) -> np.float32:
     """The largest magnitude. Eight maxima, for each comparison waits for the one before it."""
     a = b = c = d = e = f = g = h = np.float32(0.0)
@@ -142,7 +145,7 @@ def _largest(sums: NDArray[np.float32]) -> np.float32:
     return max(max(max(a, b), max(c, d)), max(max(e, f), max(g, h)))
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
     """Inner product of the first `m` elements."""
     total = np.float32(0.0)
@@ -151,7 +154,7 @@ def _dot(x: NDArray[np.float32], y: NDArray[np.float32], m: int) -> np.float32:
     return total
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _project(
     i: int,
     active: int,
@@ -199,7 +202,7 @@ def _project(
     return going_on
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
     """Back substitution: from projections on `s` orthogonalised atoms to coefficients, both in the last column."""
     last = systems.shape[1]
@@ -278,7 +281,7 @@ def recover_image(
             image[indices[i]] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)
 
 
-@kernel(fastmath=FASTMATH)
+@kernel(fastmath=FASTMATH, inline="always")
 def _scatter(
     pressed: bool,
     touch_counts: int,
