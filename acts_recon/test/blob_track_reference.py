@@ -300,7 +300,7 @@ class BlobTrackerReference:
         if None not in self._places:
             # There are twice as many places as active tracks; the one merged or away for longest goes.
             oldest = min(
-                (track for track in self._tracks() if track.state != ACTIVE),
+                (track for track in self._tracks() if track.state != ACTIVE and track.blob is None),
                 key=lambda track: track.merged_s if track.state == MERGED else track.seen_s,
             )
             if oldest.state == MERGED:

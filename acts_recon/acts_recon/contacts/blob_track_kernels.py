@@ -262,11 +262,12 @@ def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], nex
             place = t
             break
     if place == NONE:
-        # There are twice as many places as active tracks; the one merged or away for longest goes.
+        # There are twice as many places as active tracks; the one merged or away for longest goes. What comes back in
+        # this frame is away until its update, but has a contact.
         longest = math.inf
         for t in range(MAX_TRACKS):
             since = tracks[t].merged_s if tracks[t].state == MERGED else tracks[t].seen_s
-            if tracks[t].state != ACTIVE and since < longest:
+            if tracks[t].state != ACTIVE and tracks[t].blob == NONE and since < longest:
                 longest = since
                 place = t
         if tracks[place].state == MERGED:

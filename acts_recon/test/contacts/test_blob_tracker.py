@@ -3,7 +3,7 @@
 
 """Whether contacts keep their numbers: sliding, away for a moment, joined, parted, crossing, too many."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 import pytest
@@ -247,6 +247,24 @@ def test_of_too_many_contacts_the_weakest_are_left_out_and_the_others_keep_their
     assert numbers(tracker.step(image, 0.001)) == numbers(first)
     assert tracker.step(np.zeros_like(image), 0.002) == ()
     assert tracker.dropped == 0
+
+
+def test_a_contact_that_comes_back_among_many_new_ones_keeps_its_number(tracker: BlobTracker) -> None:
+    def among(places: Iterable[int]) -> NDArray[np.float32]:
+        """Contacts at these places of 64."""
+        grid = np.zeros(64)
+        grid[list(places)] = 500
+        image = np.zeros((32, 32), dtype=np.float32)
+        image[::4, ::4] = grid.reshape(8, 8)
+        return image
+
+    first = numbers(tracker.step(among(range(16)), 0.0))
+    # Now as many are away as active.
+    second = numbers(tracker.step(among(range(32, 48)), 0.001))
+    found = numbers(tracker.step(among([*range(8), *range(48, 56)]), 0.002))
+    assert found[:8] == first[:8]
+    assert min(found[8:]) > max(second)
+    assert len(set(found)) == MAX_BLOBS
 
 
 def test_time_that_goes_back_makes_everything_new(tracker: BlobTracker) -> None:
