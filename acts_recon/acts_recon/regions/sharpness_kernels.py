@@ -255,7 +255,12 @@ def _misfit(
     order: NDArray[np.int64],
     enough: float,
 ) -> float:
-    """Chi squared of a shape that is as strong as the middle taxel says; beyond `enough` it is not worked out."""
+    """Chi squared of a shape that is as strong as the middle taxel says; beyond `enough` it is not worked out.
+
+    Infinite where the middle taxel, which is pressed, would feel nothing of the shape: a tip may be finer than the gap.
+    """
+    if share[REACH, REACH] <= 0.0:
+        return math.inf
     strength = force[REACH, REACH] / share[REACH, REACH]
     total = 0.0
     for k in range(len(order)):

@@ -118,6 +118,16 @@ def test_where_the_force_response_says_no_force_for_what_is_pressed_there_is_no_
     assert Sharpness((FINGER,), force_table(response), 60.0, NOISE_COUNTS, SharpnessConfig()).of(image) == [0.0]
 
 
+def test_a_tip_far_finer_than_the_taxels_is_told() -> None:
+    # Pressed beyond the edge of its taxel, where the search looks, too, it would not be felt there at all.
+    wide = replace(FINGER, pitch_m=0.005, row_pitch_m=0.005, radius_m=0.0)
+    config = SharpnessConfig(sharpness_tip_radius_m=1e-4, sharpness_spread_m=1e-5)
+    for beside in (0.0, 400.0):
+        image = np.zeros((8, 8), dtype=np.float32)
+        image[3, 4], image[3, 5] = 500.0, beside
+        assert np.isfinite(Sharpness((wide,), force_table(RESPONSE), 8.0, NOISE_COUNTS, config).of(image)).all()
+
+
 def test_a_line_is_no_tip() -> None:
     edge = felt(0.0015, 0.0015, (0.0, 0.0))
     edge[:] = edge[:, 4:5].max(axis=0, keepdims=True)
