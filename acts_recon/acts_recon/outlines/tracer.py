@@ -274,8 +274,11 @@ class OutlineTracer:
         if rows.size < _LEAST_TAXELS:
             return None
         weights = force_n[inside]
-        radius = math.sqrt(max(int(np.count_nonzero(weights > level_n)), 1) / math.pi)
         whole = float(weights.sum())
+        # The image may show what this frame has measured to be nothing.
+        if whole <= 0:
+            return None
+        radius = math.sqrt(max(int(np.count_nonzero(weights > level_n)), 1) / math.pi)
         row, col = float(rows @ weights) / whole, float(cols @ weights) / whole
         return EdgeFilter(row, col, radius, radius / (1e3 * duration_s + 1e-3), since_ms)
 

@@ -134,6 +134,16 @@ def test_an_image_that_predicts_too_much_at_the_frames_end_does_not_matter() -> 
         assert mean_distance_m(corners, truth) < 0.4 * GEOMETRY.pitch_m
 
 
+def test_a_contact_that_a_frame_has_measured_to_be_none_has_no_outline() -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
+    image = np.zeros((32, 32), dtype=np.float32)
+    image[10, 10:12] = 300.0
+    places = np.array([10 * 32 + col for col in (10, 11, 12)], dtype=np.uint16)
+    assert tracer.step(places[:2], np.full(2, 300, dtype=np.uint16), 0.0, 1e-3, image) == ()
+    image[10, 12] = 300.0
+    assert tracer.step(places, np.zeros(3, dtype=np.uint16), 1e-3, 1e-3, image) == ()
+
+
 def test_a_contact_keeps_its_number_and_two_have_two() -> None:
     tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
     for number in range(8):
