@@ -70,6 +70,7 @@ class FramePipeline:
         # Baselines come on another thread than frames.
         self._lock = threading.Lock()
         self._is_other_zero = False
+        self._noise: tuple[NDArray[np.float32], NDArray[np.bool_]] | None = None
         self.every: SampleFrame | None = None
         self.frame: SampleFrame | None = None
         self.contact = Contact()
@@ -92,7 +93,9 @@ class FramePipeline:
     def set_baseline(
         self, counts: NDArray[np.float32], noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]
     ) -> None:
-        """Use from now on what the taxels read untouched; see `BaselineSubtraction.set` and `Method.set_noise`.
+        """Use from the next frame on what the taxels read untouched.
+
+        See `BaselineSubtraction.set` and `Method.set_noise`. It may be called on another thread than `step`.
 
         Where a taxel may be touched by the one and untouched by the other, as by a tare, all frames are forgotten with
         the next one: what differs then has not happened on the skin.
@@ -106,7 +109,7 @@ class FramePipeline:
         with self._lock:
             if self._baseline.set(counts, valid) > self._touch_counts:
                 self._is_other_zero = True
-        self.recovery.set_noise(noise_counts, valid)
+            self._noise = noise_counts.copy(), valid.copy()
 
     def reset(self) -> None:
         """Forget all frames: the next one is long after or before, or of another board."""
@@ -144,6 +147,10 @@ class FramePipeline:
             if self._is_other_zero:
                 self._is_other_zero = False
                 self._forget()
+            # Here, because a method is in use on this thread while it recovers a frame.
+            noise, self._noise = self._noise, None
+            if noise is not None:
+                self.recovery.set_noise(*noise)
             if self._baseline.is_set:
                 every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
         once = every.once()

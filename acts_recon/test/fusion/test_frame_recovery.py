@@ -5,8 +5,11 @@
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame, Scheme
@@ -101,6 +104,26 @@ def test_the_noise_of_a_baseline_is_that_of_its_taxels(recovery: FrameRecovery) 
     assert sigma is not None
     assert sigma.ravel() == pytest.approx(noise, rel=0.01)
     recovery.set_baseline(np.zeros(SIDE * SIDE, np.float32), noise, noise < 0)
+
+
+def test_a_baseline_that_comes_during_a_frame_is_in_force_with_the_next(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    method, known = recovery.recovery.method, np.ones(SIDE * SIDE, dtype=np.bool_)
+    threads: list[int] = []
+
+    def set_noise(noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:
+        threads.append(threading.get_ident())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(method, "set_noise", set_noise)
+        other = threading.Thread(target=recovery.set_baseline, args=(0 * known, np.ones(known.size), known))
+        other.start()
+        other.join()
+        assert threads == []
+        for sequence in range(2):
+            recovery.step(frame(sequence, 500), 1_000_000 * sequence)
+    assert threads == [threading.get_ident()]
+    recovery.set_baseline(np.zeros(known.size, np.float32), np.zeros(known.size, np.float32), ~known)
 
 
 def test_a_baseline_is_subtracted(recovery: FrameRecovery) -> None:
