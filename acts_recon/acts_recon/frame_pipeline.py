@@ -62,6 +62,7 @@ class FramePipeline:
         self.recovery = settings.recovery()
         self.size = (settings.rows, settings.cols)
         self._forget_more = forget
+        self._samples = self.recovery.skin.placed_samples()
         self._baseline = BaselineSubtraction(settings.rows * settings.cols)
         self._numbers = SequenceNumbers()
         self._order = FrameOrder()
@@ -139,7 +140,7 @@ class FramePipeline:
         RepeatedFrameError
             The frame is the last one once more; it is not counted.
         ArrayError
-            Its samples are not of this matrix. It has come, so it is not missing.
+            Its samples are not of this matrix, or its times are none. It has come, so it is not missing.
         """
         lost = self.count(frame)
         every = frame
@@ -153,6 +154,9 @@ class FramePipeline:
                 self.recovery.set_noise(*noise)
             if self._baseline.is_set:
                 every = frame._replace(counts=self._baseline.apply(frame.indices, frame.counts))
+        if every.repeats:
+            # Recovery takes the last sample of each taxel, but `every` is for those that take all.
+            self._samples.of(every.indices, every.counts, may_repeat=True)
         once = every.once()
         self.contact = self.recovery.step(once.indices, once.counts, stamp_ns * 1e-9, once.duration_us * 1e-6)
         self.every, self.frame = every, once

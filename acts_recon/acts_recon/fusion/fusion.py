@@ -48,20 +48,25 @@ is there.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry, check_untouched
-from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.fusion.fusion_image_kernels import confidence
 from acts_recon.fusion.fusion_kernels import fuse
 from acts_recon.fusion.fusion_state import Tuning, expect_noise, forget, new_memory, state_of
-from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of
+from acts_recon.images import (
+    LEAST_NOISE_COUNTS,
+    LONGEST_PAUSE_S,
+    NOISE_COUNTS,
+    PlacedSamples,
+    borders_of,
+    require_times,
+)
 
 
 @dataclass(frozen=True)
@@ -216,8 +221,7 @@ class FusionEstimator:
         ArrayError
             When the frame does not fit the array or holds impossible values. Everything is left as it was.
         """
-        if not (math.isfinite(end_s) and 0 <= duration_s < math.inf):
-            raise ArrayError(f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative")
+        require_times(end_s, duration_s)
         places, counts = self._samples.of(indices, counts)
         period_s = duration_s
         if self._end_s is not None:

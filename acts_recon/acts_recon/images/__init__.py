@@ -8,7 +8,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of, grown
-from acts_recon.images.frame_check import LONGEST_PAUSE_S
+from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
@@ -38,6 +38,7 @@ __all__ = [
     "force_of",
     "grown",
     "mono16",
+    "require_times",
     "rgb8",
     "root_deviation",
     "slope_table",

@@ -76,7 +76,9 @@ class BaselineSubtraction:
             Samples of one frame. Samples that do not fit the array come back as they are.
         """
         m = counts.shape[0]
-        if not self.is_set or m > self._result.size:
+        if not self.is_set:
             return counts
-        _subtract(indices, counts, self._baseline, self._result)
-        return self._result[:m]
+        # A frame with more samples than there are taxels has some several times.
+        result = self._result[:m] if m <= self._result.size else np.empty(m, dtype=np.uint16)
+        _subtract(indices, counts, self._baseline, result)
+        return result

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,6 +29,13 @@ def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> 
         raise ArrayError(f"indices {_kind(indices)} and counts {_kind(counts)}: needed are two rows of uint16")
     if indices.size != counts.size or indices.size == 0:
         raise ArrayError(f"{indices.size} indices and {counts.size} counts: needed are as many, at least one")
+
+
+def require_times(end_s: float, duration_s: float) -> None:
+    """Raise `ArrayError` unless a frame that ended then and took so long [s] can be."""
+    # Written so that NaN is refused, too.
+    if not (math.isfinite(end_s) and 0 <= duration_s < math.inf):
+        raise ArrayError(f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative")
 
 
 def why_refused(code: int, indices: NDArray[np.uint16], counts: NDArray[np.uint16], rows: int, cols: int) -> str:

@@ -102,7 +102,8 @@ class Method(ABC):
     ) -> NDArray[np.float32]:
         """Take one frame of samples and return `image`, as it is at its end.
 
-        Nobody has checked the frame: `SkinSetup.placed_samples` does, and turns `indices` into places in `image`.
+        Nobody has checked the frame: `SkinSetup.placed_samples` does, and turns `indices` into places in `image`;
+        `acts_recon.images.require_times` checks the times.
 
         Parameters
         ----------

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from acts_core.errors import SettingsError
 from acts_core.files import path_of
 from acts_core.settings import default_of, setting, validate
+from acts_recon.images import require_times
 from acts_recon.methods.method import Method, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
 
@@ -43,7 +44,7 @@ class PerFrameConfig:
 
 
 class PerFrame(Method):
-    """See `Method` and `Reconstructor`; it needs no times.
+    """See `Method` and `Reconstructor`; it uses no times.
 
     Parameters
     ----------
@@ -87,4 +88,5 @@ class PerFrame(Method):
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> NDArray[np.float32]:
         """See `Method.step`."""
+        require_times(end_s, duration_s)
         return self._reconstructor.recover(indices, counts)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, Response, force_table
-from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of
+from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of, require_times
 from acts_recon.outlines.config import OutlinesConfig
 from acts_recon.outlines.contours import area, contours
 from acts_recon.outlines.edge_filter import EdgeFilter
@@ -164,6 +164,7 @@ class OutlineTracer:
         """
         if image.shape != self._shape:
             raise ArrayError(f"image {image.shape}: needed is {self._shape}")
+        require_times(end_s, duration_s)
         places, placed_counts = self._samples.of(indices, counts)
         if not self._follows(end_s):
             self.reset()

@@ -19,6 +19,7 @@ from acts_recon.images import (
     NOISE_COUNTS,
     PlacedSamples,
     borders_of,
+    require_times,
     slope_table,
 )
 from acts_recon.spectra.config import SpectraConfig
@@ -113,6 +114,7 @@ class SpectrumAnalyser:
         With `may_repeat` a frame may have a taxel several times: then faster vibrations are found. Where the time goes
         back, or on by more than half a second, those before are forgotten.
         """
+        require_times(end_s, duration_s)
         placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
         if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= LONGEST_PAUSE_S:
             self._frames.clear()

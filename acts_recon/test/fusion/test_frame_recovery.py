@@ -90,6 +90,31 @@ def test_a_frame_that_is_refused_is_not_missing_as_well(recovery: FrameRecovery)
     assert recovery.lost == 0
 
 
+def test_all_samples_of_a_taxel_that_is_measured_several_times_are_checked(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    recovery.step(frame(1, 500), 1_000_000)
+    image = recovery.recovery.image.copy()
+    twice = np.array([5, 5], dtype=np.uint16)
+    for counts, word in (([2000, 100], "count 2000: the board reads 0 to 1023"), ([100], "2 indices and 1 counts")):
+        samples = np.array(counts, dtype=np.uint16)
+        with pytest.raises(ArrayError, match=word):
+            recovery.step(frame(2, 0)._replace(scheme=Scheme.FIXED, indices=twice, counts=samples), 2_000_000)
+        recovery.reset()
+    assert recovery.every is not None
+    assert len(recovery.every.counts) == SIDE * SIDE
+    recovery.step(frame(1, 500), 1_000_000)
+    assert recovery.recovery.image.tolist() == image.tolist()
+
+
+@pytest.mark.parametrize("method", ["fusion", "per_frame"])
+def test_a_frame_that_took_less_than_no_time_is_refused(method: str) -> None:
+    recovery = FrameRecovery(ReconstructionSettings(rows=SIDE, cols=SIDE, method=method))
+    with pytest.raises(ArrayError, match=r"duration -1e-06 s: needed are finite times, none negative"):
+        recovery.step(frame(1, 500)._replace(duration_us=-1), 1_000_000)
+    assert recovery.step(frame(2, 500), 2_000_000) == 0
+    assert recovery.contact.in_contact
+
+
 def test_a_frame_of_another_size_is_refused(recovery: FrameRecovery) -> None:
     with pytest.raises(ArrayError, match="16 x 16 taxels, expected are 8 x 8"):
         recovery.step(frame(0, 0, side=16), 0)

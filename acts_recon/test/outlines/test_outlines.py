@@ -144,6 +144,12 @@ def test_a_contact_that_a_frame_has_measured_to_be_none_has_no_outline() -> None
     assert tracer.step(places, np.zeros(3, dtype=np.uint16), 1e-3, 1e-3, image) == ()
 
 
+@pytest.mark.parametrize("duration_s", [-1e-6, np.nan, np.inf])
+def test_a_duration_that_cannot_be_is_refused(duration_s: float) -> None:
+    with pytest.raises(ArrayError, match="needed are finite times, none negative"):
+        OutlineTracer(GEOMETRY).step(ALL, ALL % 10, 1.0, duration_s, np.zeros((32, 32), dtype=np.float32))
+
+
 def test_a_contact_keeps_its_number_and_two_have_two() -> None:
     tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
     for number in range(8):

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.array import ArrayGeometry
-from acts_core.errors import SettingsError
+from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import ForceResponse, layout
 from acts_recon.spectra import SpectraConfig, Spectrum, SpectrumAnalyser
 
@@ -161,6 +161,13 @@ def test_any_samples_have_finite_spectra(data: st.DataObject) -> None:
         assert np.isfinite(spectrum.amplitude_n).all()
         for peak in spectrum.peaks:
             assert np.isfinite([*vars(peak).values()]).all()
+
+
+@pytest.mark.parametrize(("end_s", "duration_s"), [(1.0, -1e-6), (1.0, np.nan), (np.inf, 1e-3)])
+def test_times_that_cannot_be_are_refused(end_s: float, duration_s: float) -> None:
+    one = np.ones(1, dtype=np.uint16)
+    with pytest.raises(ArrayError, match="needed are finite times, none negative"):
+        SpectrumAnalyser(GEOMETRY).add(one, one, end_s, duration_s)
 
 
 def test_settings_out_of_range_are_refused() -> None:
