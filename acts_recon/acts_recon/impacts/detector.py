@@ -78,7 +78,9 @@ class ImpactDetector:
         self._tracker = BlobTracker(geometry, response, blobs, self._borders)
         memory_s = self.config.impact_longest_s + self.config.impact_quiet_s + 0.1
         noise_counts = max(blobs.noise_counts, LEAST_NOISE_COUNTS)
-        self._samples = RecentSamples(geometry, response, float(blobs.touch_counts), noise_counts, memory_s)
+        self._samples = RecentSamples(
+            geometry, response, float(blobs.touch_counts), noise_counts, memory_s, self._borders
+        )
         self._touches: list[Touch] = []
         self._next_number = 1
         self._before_s: float | None = None
@@ -167,7 +169,7 @@ class ImpactDetector:
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
                 touch.add(time_s, blobs, image, self.config)
                 if touch.began_s == time_s:
-                    if not is_sampled or self._samples.has_come(*_whole(blobs)):
+                    if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
                         begun.append(self._begun(touch))
                     else:
                         touch.is_told = True  # all there is to tell: nothing
@@ -190,7 +192,7 @@ class ImpactDetector:
         if not is_sampled:
             touch.see(np.array([time_s]))
             return True
-        pressed_s, free_s = self._samples.near(*_whole(blobs))
+        pressed_s, free_s = self._samples.near(*_whole(blobs), touch.patch)
         if pressed_s.size:
             touch.see(pressed_s)
         # Where a frame has measured nothing there, it says nothing; but not for long.
@@ -235,7 +237,7 @@ class ImpactDetector:
 
     def _untouched_before(self, touch: Touch) -> NDArray[np.float64]:
         first_s = 2 * touch.before_s - touch.began_s
-        return self._samples.untouched_s(*touch.start_m, first_s, touch.first_sample_s)
+        return self._samples.untouched_s(*touch.start_m, touch.patch, first_s, touch.first_sample_s)
 
     def _end(self, time_s: float, period_s: float, image: NDArray[np.float32]) -> list[Impact]:
         """Tell of the touches that are over, and of impacts that stay on the skin."""
@@ -262,7 +264,8 @@ class ImpactDetector:
     def _is_part(self, touch: Touch, image: NDArray[np.float32]) -> bool:
         """Whether a touch that is not felt any more has become one with another: the skin there is still pressed."""
         row, col = self._place(touch.x_m, touch.y_m)
-        around = image[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2]
+        top, bottom, left, right = self._borders.rectangles[touch.patch].tolist()
+        around = image[max(row - 1, top) : min(row + 2, bottom), max(col - 1, left) : min(col + 2, right)]
         others = (
             other
             for other in self._touches
@@ -275,7 +278,7 @@ class ImpactDetector:
         time, force_n, path_x_m, path_y_m = touch.path()
         last = float(time[-1])
         is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
-        fitted = self._footprint(time, force_n, path_x_m, path_y_m, touch.spread_m) if is_short else None
+        fitted = self._footprint(touch, time, force_n, path_x_m, path_y_m) if is_short else None
         peak_n, peak_sd_n = touch.peak_n, touch.peak_sd_n
         x_m, y_m = touch.peak_x_m, touch.peak_y_m
         if fitted is not None:
@@ -294,7 +297,7 @@ class ImpactDetector:
         if stays:
             end_s = touch.last_s
         else:
-            free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.last_sample_s, math.inf)
+            free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.patch, touch.last_sample_s, math.inf)
             end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force if is_short else None)
         kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self._frame_s, self.config)
         velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
@@ -334,12 +337,15 @@ class ImpactDetector:
     def _followed_back(self, touch: Touch, time_s: float) -> tuple[float, float] | None:
         """When a touch that is no impact began, and the standard deviation [s]."""
         first_s = touch.first_sample_s - self.config.impact_longest_s
-        rise = self._samples.rise(first_s, time_s, *touch.start_m, touch.peak_image, self.config.impact_foam_spread_m)
+        rise = self._samples.rise(
+            first_s, time_s, *touch.start_m, touch.patch, touch.peak_image, self.config.impact_foam_spread_m
+        )
         return None if rise is None else follow_back(rise)
 
-    def _footprint(self, time_s: Array, force_n: Array, x_m: Array, y_m: Array, spread_m: float) -> Footprint | None:
+    def _footprint(self, touch: Touch, time_s: Array, force_n: Array, x_m: Array, y_m: Array) -> Footprint | None:
         total = float(force_n.sum())
         middle_x_m, middle_y_m = float(force_n @ x_m) / total, float(force_n @ y_m) / total
         away_m2 = (x_m - middle_x_m) ** 2 + (y_m - middle_y_m) ** 2
-        reach_m = math.sqrt(float(force_n @ away_m2) / total + spread_m**2)
-        return self._samples.footprint(float(time_s[0]), float(time_s[-1]), middle_x_m, middle_y_m, reach_m)
+        spread_m = math.sqrt(float(force_n @ away_m2) / total + touch.spread_m**2)
+        first_s, last_s = float(time_s[0]), float(time_s[-1])
+        return self._samples.footprint(first_s, last_s, middle_x_m, middle_y_m, touch.patch, spread_m)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.skin import Response, force_table
-from acts_recon.images import slope_table
+from acts_recon.images import Borders, borders_of, slope_table
 from acts_recon.impacts.footprint_fit import Footprint, fit_footprint
 from acts_recon.impacts.onset_fit import Rise
 
@@ -42,6 +42,9 @@ _WIDEST_M = 0.013
 class RecentSamples:
     """Keeps the samples of the last frames, and finds out of them how a footprint moved.
 
+    Of what lies around a place only taxels of the same patch count, whose number its methods are given: that of the
+    rectangle of `borders`.
+
     Parameters
     ----------
     geometry : ArrayGeometry
@@ -52,6 +55,8 @@ class RecentSamples:
         Standard deviation of a reading.
     memory_s : float
         For how long they are kept.
+    borders : Borders, optional
+        What lies behind one is not near.
     """
 
     def __init__(
@@ -61,6 +66,7 @@ class RecentSamples:
         touch_counts: float,
         noise_counts: float,
         memory_s: float,
+        borders: Borders | None = None,
     ) -> None:
         self._geometry = geometry
         self._touch_counts = touch_counts
@@ -69,6 +75,7 @@ class RecentSamples:
         self._slope_n = slope_table(self._force_n)
         self._noise_counts = noise_counts
         place = np.arange(geometry.size)
+        self._patch_of = (borders or borders_of(geometry.rows, geometry.cols)).rectangle_of
         self._x_m, self._y_m = geometry.x_m(place % geometry.cols), geometry.y_m(place // geometry.cols)
         self._frames: deque[tuple[float, Array, NDArray[np.intp], Array]] = deque()
         # Since the last reset: of each taxel in all frames but the newest, and how many samples these have.
@@ -95,14 +102,14 @@ class RecentSamples:
         while self._frames[0][0] < time_s - self._memory_s:
             self._frames.popleft()
 
-    def near(self, x_m: float, y_m: float, reach_m: float) -> tuple[Array, Array]:
+    def near(self, x_m: float, y_m: float, reach_m: float, patch: int) -> tuple[Array, Array]:
         """When samples of the newest frame near a place were measured pressed, and when not [s]."""
         _, time_s, taxel, counts = self._frames[-1]
-        near = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
+        near = self._lies_near(taxel, x_m, y_m, reach_m, patch)
         pressed = counts > self._touch_counts
         return time_s[near & pressed], time_s[near & ~pressed]
 
-    def has_come(self, x_m: float, y_m: float, reach_m: float) -> bool:
+    def has_come(self, x_m: float, y_m: float, reach_m: float, patch: int) -> bool:
         """Whether what presses near a place in the newest frame has come since the last reset.
 
         So it is where a taxel there reads more than before, and in the end anywhere: what was there would have been
@@ -115,22 +122,35 @@ class RecentSamples:
         # At the edge of what rests, noise alone goes up and down through the threshold.
         rise = min(_RISE_NOISES * self._noise_counts, _RISE_SHARE * self._touch_counts)
         risen = (least <= self._touch_counts) & (counts - least >= rise)
-        near = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
-        return bool((risen & near).any())
+        return bool((risen & self._lies_near(taxel, x_m, y_m, reach_m, patch)).any())
 
-    def untouched_s(self, x_m: float, y_m: float, first_s: float, last_s: float) -> Array:
+    def _lies_near(
+        self, taxel: NDArray[np.intp] | slice, x_m: float, y_m: float, reach_m: float, patch: int
+    ) -> NDArray[np.bool_]:
+        """Which of these taxels of a patch lie near a place."""
+        is_near: NDArray[np.bool_] = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
+        return is_near & (self._patch_of[taxel] == patch)
+
+    def untouched_s(self, x_m: float, y_m: float, patch: int, first_s: float, last_s: float) -> Array:
         """When the taxels around a place were measured and not pressed, between two times [s]."""
         found = []
         for end_s, time_s, taxel, counts in self._frames:
             if end_s < first_s:
                 continue
-            around = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= _AROUND_TAXELS * self._geometry.pitch_m
+            around = self._lies_near(taxel, x_m, y_m, _AROUND_TAXELS * self._geometry.pitch_m, patch)
             free = around & (counts <= self._touch_counts) & (time_s > first_s) & (time_s < last_s)
             found.append(time_s[free])
         return np.concatenate(found) if found else np.zeros(0)
 
     def rise(
-        self, first_s: float, last_s: float, x_m: float, y_m: float, image: NDArray[np.float32], spread_m: float
+        self,
+        first_s: float,
+        last_s: float,
+        x_m: float,
+        y_m: float,
+        patch: int,
+        image: NDArray[np.float32],
+        spread_m: float,
     ) -> Rise | None:
         """How the force rose at the taxel near a place that is pressed most; None where none is.
 
@@ -140,6 +160,7 @@ class RecentSamples:
             From the time before the first pressed sample that is looked at, to the last [s].
         x_m, y_m : float
             Where it first touched [m].
+        patch : int
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             When the force was largest until then.
         spread_m : float
@@ -150,9 +171,9 @@ class RecentSamples:
             return None
         time_s, counts = (np.concatenate([one[k] for one in self._frames]) for k in (1, 3))
         taxel = np.concatenate([one[2] for one in self._frames])
-        around = np.hypot(self._x_m - x_m, self._y_m - y_m) <= _AROUND_TAXELS * max(
-            geometry.pitch_m, geometry.pitch_y_m
-        )
+        everywhere = slice(None)
+        reach_m = _AROUND_TAXELS * max(geometry.pitch_m, geometry.pitch_y_m)
+        around = self._lies_near(everywhere, x_m, y_m, reach_m, patch)
         seen = around[taxel] & (time_s >= first_s) & (time_s <= last_s)
         if not seen.any():
             return None
@@ -174,7 +195,7 @@ class RecentSamples:
         risen = begin + int(np.argmax(self._force(counts[begin:]) >= _RISEN * self._force(counts).max())) + 1
         whole = np.clip(np.rint(counts[begin:risen]), 0, self._force_n.size - 2).astype(np.intp)
         shown = self._force(np.where(image.ravel() > least, image.ravel(), 0.0))
-        near = np.hypot(self._x_m - self._x_m[most], self._y_m - self._y_m[most]) <= _WIDEST_M
+        near = self._lies_near(everywhere, self._x_m[most], self._y_m[most], _WIDEST_M, patch)
         # Taxels at half of the force, each as far as it is above: the area is finer than a taxel.
         share = np.clip((shown[near] / max(float(shown[most]), 1e-9) - 0.5) / 0.25 + 0.5, 0.0, 1.0)
         blur_m2 = spread_m**2 + (geometry.pitch_m**2 + geometry.pitch_y_m**2) / 24
@@ -205,15 +226,20 @@ class RecentSamples:
         force_n: Array = np.where(counts > 0, np.interp(counts, np.arange(self._force_n.size), self._force_n), 0.0)
         return force_n
 
-    def footprint(self, first_s: float, last_s: float, x_m: float, y_m: float, spread_m: float) -> Footprint | None:
+    def footprint(
+        self, first_s: float, last_s: float, x_m: float, y_m: float, patch: int, spread_m: float
+    ) -> Footprint | None:
         """The footprint that was pressed between two frames, both with; None where it cannot be told.
 
         Parameters
         ----------
         first_s, last_s : float
             Ends of the frames.
-        x_m, y_m, spread_m : float
-            Middle of all it has touched, and root mean square distance of the force from there.
+        x_m, y_m : float
+            Middle of all it has touched [m].
+        patch : int
+        spread_m : float
+            Root mean square distance of the force from there [m].
         """
         frames = [one for one in self._frames if first_s <= one[0] <= last_s]
         if not frames:
@@ -221,7 +247,7 @@ class RecentSamples:
         time_s, counts = (np.concatenate([one[k] for one in frames]) for k in (1, 3))
         taxel = np.concatenate([one[2] for one in frames])
         reach_m = 3.0 * spread_m + _MARGIN_TAXELS * self._geometry.pitch_m
-        near = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
+        near = self._lies_near(taxel, x_m, y_m, reach_m, patch)
         pressed = near & (counts > self._touch_counts)
         if not pressed.any():
             return None

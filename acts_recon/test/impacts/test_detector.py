@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -174,6 +175,36 @@ def test_on_a_single_row_of_taxels_no_direction_is_known(rows: int, cols: int) -
     assert np.isfinite([*over.time_s, *over.force_n, *over.path_x_m, *over.path_y_m]).all()
 
 
+@pytest.mark.parametrize("scheme", ["tracking", "adaptive", "random"])
+def test_what_presses_the_patch_beside_has_no_part_in_an_impact(scheme: str, tmp_path: Path) -> None:
+    skin = tmp_path / "two.yaml"
+    skin.write_text(
+        "matrix: [32, 32]\npitch_m: 0.004375\npatches:\n"
+        "  left: {at: [0, 0], wires: {down: rows, across: cols 0 to 15}}\n"
+        "  right: {at: [0, 16], wires: {down: rows, across: cols 16 to 31}}\n"
+    )
+    settings = ReconstructionSettings(layout=str(skin), touch_counts=25)
+
+    def impact_beside(counts: float) -> Impact:
+        def pressure(time_s: float) -> Array:
+            share = (time_s - 0.2) / 0.008
+            pressed = np.zeros((32, 32))
+            if 0 < share < 1:
+                pressed[:, :16] = 700 * math.sin(math.pi * share) * bump(32, 32, 10, 12 + 2 * share, 1.8)[:, :16]
+            pressed[7:14, 16:19] = counts
+            return pressed
+
+        told = told_of(settings, SamplingConfig(scheme, 32, 32, 128, threshold_counts=25), pressure, 0.3)
+        (impact,) = (one for one in told if one.kind is Kind.IMPACT)
+        return impact
+
+    alone, beside = impact_beside(0.0), impact_beside(500.0)
+    assert beside.x_m == pytest.approx(alone.x_m, abs=0.003)
+    assert beside.duration_s == pytest.approx(alone.duration_s, abs=0.002)
+    assert beside.peak_n == pytest.approx(alone.peak_n, rel=0.5)
+    assert beside.velocity_m_s[0] == pytest.approx(alone.velocity_m_s[0], abs=0.3)
+
+
 def told_of_a_square(detector: ImpactDetector, counts: float) -> list[Impact]:
     """What is told of images with a touch of 4 x 4 taxels, from 100.050 s on for 150 ms."""
     told: list[Impact] = []
@@ -208,7 +239,7 @@ def test_a_touch_is_followed_back_where_a_force_response_is_flat() -> None:
         measured[4, 4] = counts
         samples.add(100.0 + 0.01 * number, 1e-3, measured, age_s)
     x_m, y_m = (float(at(4)) for at in (ArrayGeometry(8, 8).x_m, ArrayGeometry(8, 8).y_m))
-    rise = samples.rise(100.0, 100.2, x_m, y_m, measured, 0.001)
+    rise = samples.rise(100.0, 100.2, x_m, y_m, 0, measured, 0.001)
     assert rise is not None
     followed = follow_back(rise)
     assert followed is not None
