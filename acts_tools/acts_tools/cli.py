@@ -24,6 +24,7 @@ COMMANDS = {
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
     "export": ("acts_tools.export.command", "write touch of a bag as csv, npz, parquet or a LeRobot dataset"),
     "view": ("acts_tools.view", "show touch on a page in the browser"),
+    "echo": ("acts_tools.echo.command", "print the messages of a topic"),
     "listen": ("acts_tools.listen.command", "measure loss and delay of a topic on this machine"),
     "driver": ("acts_tools.driver.command", "control a running driver: query, calibrate, tare, set"),
     "diagnostics": ("acts_tools.diagnostics.command", "print the diagnostics of the running nodes"),

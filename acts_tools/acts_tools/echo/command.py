@@ -1,0 +1,64 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts echo TOPIC`: print each message of a topic, also where there is no `ros2 topic echo`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+from acts_core.errors import SettingsError
+from acts_core.names import full_name
+
+_TURN_S = 0.1
+
+_EPILOG = """\
+examples:
+  acts echo /plate/impacts             each touch of the skin
+  acts echo /plate/contact -n 1        the next message only
+
+`acts listen` counts the messages of a topic, and those that are missing.
+"""
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add ``echo`` to the acts command."""
+    parser = subparsers.add_parser(
+        "echo",
+        help="print the messages of a topic",
+        description="Print each message of a topic as YAML, with --- after it. The topic may appear later. "
+        "Ctrl-C ends it.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("topic", metavar="TOPIC", help="topic, such as /plate/impacts")
+    parser.add_argument("-n", "--number", type=int, metavar="N", help="end after this many messages")
+    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print messages; return 0 if at least one came."""
+    if arguments.number is not None and arguments.number < 1:
+        raise SettingsError(f"--number {arguments.number}: at least 1 is needed")
+    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
+        raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
+    topic = full_name(arguments.topic)
+    # Imported here, because they are slow to import and other commands do not need them.
+    from acts_ros.bags import require_rosbags
+    from acts_ros.executor import spin_for
+    from acts_tools.echo.printer import Printer
+    from acts_tools.running.node import command_node
+    from acts_tools.running.stopping import StopFlag
+
+    require_rosbags()
+    with StopFlag() as stop, command_node("acts_echo") as (node, executor):
+        printer = Printer(node, topic, arguments.number)
+        end_s = float("inf") if arguments.duration is None else time.monotonic() + arguments.duration
+        while not (stop.is_set or printer.is_done) and time.monotonic() < end_s:
+            printer.discover()
+            spin_for(executor, min(_TURN_S, max(end_s - time.monotonic(), 0.001)))
+    if not printer.printed:
+        print(f"{topic}: {'no message came' if printer.is_found else 'no publisher found'}", file=sys.stderr)
+    return 0 if printer.printed else 1

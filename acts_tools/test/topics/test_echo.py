@@ -1,0 +1,103 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""`acts echo`: messages as text, and the command on a publisher of this process; ROS_DOMAIN_ID 230."""
+
+from __future__ import annotations
+
+import array
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+from sensor_msgs.msg import Image
+
+from acts_msgs.msg import Impact
+from acts_ros.qos import STREAM
+from acts_tools.cli import main
+from acts_tools.echo.message_text import LONGEST_LIST, message_text
+from acts_tools.testing.probe import Probe
+
+pytestmark = pytest.mark.slow
+
+DEADLINE_S = 60.0
+
+
+def test_a_message_is_told_field_by_field() -> None:
+    impact = Impact(number=3, is_over=True, peak_force=0.1, onset_sigma=1e-5, force=array.array("f", [0.1, 2.0]))
+    impact.header.frame_id = "plate"
+    impact.onset.nanosec = 5
+    text = message_text(impact)
+    lines = text.splitlines()
+    assert "onset: {sec: 0, nanosec: 5}" in lines
+    assert "is_over: true" in lines
+    assert "force: [0.1, 2.0]" in lines
+    told = yaml.safe_load(text)
+    assert list(told) == list(impact.get_fields_and_field_types())
+    assert told["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "plate"}
+    assert (told["number"], told["peak_force"], told["onset_sigma"], told["path_x"]) == (3, 0.1, 1e-5, [])
+
+
+def test_messages_in_messages_and_bytes_are_told() -> None:
+    status = DiagnosticStatus(level=b"\x02", name="plate/driver", values=[KeyValue(key="lost", value="yes: 3")])
+    told = yaml.safe_load(message_text(DiagnosticArray(status=[status])))
+    (only,) = told["status"]
+    assert (only["level"], only["name"], only["values"]) == (2, "plate/driver", [{"key": "lost", "value": "yes: 3"}])
+
+
+@pytest.mark.parametrize("kind", [array.array, np.array])
+def test_long_lists_are_cut(kind: type) -> None:
+    data = array.array("B", range(200)) if kind is array.array else np.arange(200, dtype=np.uint8)
+    image = Image(height=1, width=200)
+    image._data = data
+    told = yaml.safe_load(message_text(image))["data"]
+    assert told == [*range(LONGEST_LIST), "... 200 in all"]
+
+
+@pytest.fixture
+def talker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "230")
+    with Probe(230) as probe:
+        yield probe.node
+
+
+def test_the_command_prints_as_many_messages_as_are_wanted(talker: Node) -> None:
+    impacts = talker.create_publisher(Impact, "/plate/impacts", STREAM)
+    command = [sys.executable, "-m", "acts_tools", "echo", "plate/impacts", "-n", "2"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    deadline_s = time.monotonic() + DEADLINE_S
+    number = 0
+    try:
+        while process.poll() is None:
+            assert time.monotonic() < deadline_s
+            number += 1
+            impacts.publish(Impact(number=number))
+            time.sleep(0.01)  # the rate of the messages
+        assert process.stdout is not None
+        told = list(yaml.safe_load_all(process.stdout.read()))
+    finally:
+        process.kill()
+        process.communicate()
+    assert process.returncode == 0
+    assert told.pop() is None  # behind the last ---
+    first, second = told
+    assert second["number"] == first["number"] + 1
+
+
+def test_who_hears_nothing_is_told(talker: Node) -> None:
+    command = [sys.executable, "-m", "acts_tools", "echo", "-d", "0.3", "/nobody"]
+    finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
+    assert (finished.returncode, finished.stdout) == (1, "")
+    assert finished.stderr == "/nobody: no publisher found\n"
+
+
+@pytest.mark.parametrize("words", [["--number", "0"], ["--duration", "0"], ["--duration", "nan"]])
+def test_impossible_limits_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["echo", *words, "/plate/contact"]) == 1
+    assert capsys.readouterr().err.startswith(f"error: {words[0]} {words[1]}")
