@@ -19,13 +19,21 @@ T = TypeVar("T")
 PATIENCE_S = 0.5
 """How long a thread that answers others waits for such work [s]."""
 
-_running: set[threading.Thread] = set()
+_running: dict[threading.Thread, float] = {}
+"""Threads that work, and how long the end of the process waits for each [s]."""
 
 
-def begin(work: Callable[[], T]) -> Future[T]:
+def begin(work: Callable[[], T], *, ends_within_s: float = PATIENCE_S) -> Future[T]:
     """Begin the work now; what it returns or raises is in the future.
 
-    At its end a process waits for it up to `PATIENCE_S`, and not for ever as for the threads of `concurrent.futures`.
+    At its end a process waits for it, and not for ever as for the threads of `concurrent.futures`.
+
+    Parameters
+    ----------
+    work : callable
+        Runs on the thread.
+    ends_within_s : float
+        How long the end of the process waits for it at most [s]: for work that computes, as long as that may take.
     """
     future: Future[T] = Future()
 
@@ -36,10 +44,10 @@ def begin(work: Callable[[], T]) -> Future[T]:
         except BaseException as error:  # noqa: BLE001
             future.set_exception(error)
         finally:
-            _running.discard(threading.current_thread())
+            _running.pop(threading.current_thread(), None)
 
     thread = threading.Thread(target=run, name="acts_background", daemon=True)
-    _running.add(thread)
+    _running[thread] = ends_within_s
     thread.start()
     return future
 
@@ -47,9 +55,9 @@ def begin(work: Callable[[], T]) -> Future[T]:
 @atexit.register
 def _wait_for_running() -> None:
     """Let work end: a thread that Python's end meets within compiled code of numpy's aborts the process."""
-    until_s = time.monotonic() + PATIENCE_S
-    for thread in list(_running):
-        thread.join(max(0.0, until_s - time.monotonic()))
+    begin_s = time.monotonic()
+    for thread, ends_within_s in list(_running.items()):
+        thread.join(max(0.0, begin_s + ends_within_s - time.monotonic()))
 
 
 def is_done(future: Future[T]) -> bool:

@@ -23,7 +23,7 @@ values = np.arange(2000) % 1000
 begun = threading.Event()
 def sort():
     begun.set()
-    until_s = time.monotonic() + 0.2
+    until_s = time.monotonic() + {seconds}
     while time.monotonic() < until_s:
         np.unique(values)
     print("sorted", flush=True)
@@ -35,9 +35,12 @@ begun.wait()
 """
 
 
-@pytest.mark.parametrize(("work", "told"), [("sort", "sorted\n"), ("hang", "")])
-def test_a_process_ends_orderly_while_work_goes_on(work: str, told: str) -> None:
-    command = [sys.executable, "-c", _BEGIN.format(work=work)]
+@pytest.mark.parametrize(
+    ("work", "seconds", "told"),
+    [("sort", 0.2, "sorted\n"), ("sort, ends_within_s=60.0", 1.0, "sorted\n"), ("hang", 0.0, "")],
+)
+def test_a_process_ends_orderly_while_work_goes_on(work: str, seconds: float, told: str) -> None:
+    command = [sys.executable, "-c", _BEGIN.format(work=work, seconds=seconds)]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, told, "")
 

@@ -21,6 +21,9 @@ from acts_recon.settings import ReconstructionConfig
 from acts_recon.spectra import Spectrum
 from acts_ros.messages import set_stamp
 
+_SPECTRA_END_WITHIN_S = 4.0
+"""Those of 50,000 samples take up to a second of a core [s]; a launch ends the process after 5 s more harshly."""
+
 
 class SpectraPublisher(TopicPublisher):
     """Keeps the samples of the last second, and publishes acts_msgs/Spectrum of each contact.
@@ -62,7 +65,7 @@ class SpectraPublisher(TopicPublisher):
             self._header = Header(frame_id=frame.header.frame_id)
             set_stamp(self._header.stamp, frame.stamp_ns)
             self._sequence = frame.sequence
-            self._work = background.begin(lambda: self._analyser.spectra(window))
+            self._work = background.begin(lambda: self._analyser.spectra(window), ends_within_s=_SPECTRA_END_WITHIN_S)
 
     def _rate_hz(self, settings: ReconstructionConfig) -> float:
         return settings.spectra_rate_hz
