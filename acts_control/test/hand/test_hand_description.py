@@ -18,12 +18,15 @@ from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_descr
 from acts_control.hand.nodes.hand_node import HandSettings
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
 from acts_core.errors import SettingsError
+from acts_core.skin import layout
 
 LEAP = HandKinematics(LEAP_RIGHT)
 
-(EXAMPLE,) = re.findall(r"```yaml\n(.*?)```", (Path(__file__).parents[3] / "docs" / "hand.md").read_text(), re.DOTALL)
+EXAMPLE, SKIN = re.findall(
+    r"```yaml\n(.*?)```", (Path(__file__).parents[3] / "docs" / "hand.md").read_text(), re.DOTALL
+)
 GRIPPER = re.sub(r" +#.*", "", EXAMPLE)
-"""The example of docs/hand.md, without its comments."""
+"""The example of docs/hand.md, without its comments; `SKIN` is the layout of its skin."""
 
 
 def test_the_leap_hand_has_the_joints_fingers_and_regions_of_the_contract() -> None:
@@ -107,6 +110,18 @@ def test_another_hand_is_another_file(tmp_path: Path) -> None:
     pose = HandKinematics(gripper).at(np.array([0.3, 0.3]))
     assert pose.tip("left")[0] == pytest.approx(0.02 - 0.05 * math.sin(0.3))
     assert pose.tip("right")[0] == pytest.approx(-0.02 + 0.05 * math.sin(0.3))
+
+
+def test_the_skin_of_the_other_hand_has_its_regions_on_its_links(tmp_path: Path) -> None:
+    for name, text in (("gripper.yaml", GRIPPER), ("gripper_skin.yaml", SKIN)):
+        (tmp_path / name).write_text(text)
+    regions = hand_description(str(tmp_path / "gripper.yaml")).regions
+    skin = layout(str(tmp_path / "gripper_skin.yaml"), 16, 8)
+    assert {patch.name: patch.link for patch in skin.patches} == {name: one.link for name, one in regions.items()}
+    left = skin.patches[1]
+    # Along the jaw towards its tip, and out of the skin towards the other jaw.
+    assert left.points_m()[0, 0] - left.points_m()[-1, 0] == pytest.approx([0, 0, 0.028], abs=1e-6)
+    assert left.normals()[0, 0] == pytest.approx([-1, 0, 0], abs=1e-6)
 
 
 def test_a_file_that_was_changed_is_read_anew(tmp_path: Path) -> None:

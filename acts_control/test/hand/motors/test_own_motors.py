@@ -84,7 +84,7 @@ class Controller:
 @pytest.fixture
 def gripper(tmp_path: Path) -> HandDescription:
     """The hand of the same page."""
-    (code,) = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
+    code, _skin = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
     path = tmp_path / "gripper.yaml"
     path.write_text(code)
     return hand_description(str(path))
