@@ -48,17 +48,25 @@ def run(arguments: argparse.Namespace) -> int:
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags import require_rosbags
     from acts_ros.executor import spin_for
-    from acts_tools.echo.printer import Printer
+    from acts_tools.echo.inbox import Inbox
+    from acts_tools.echo.message_text import message_text
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
     require_rosbags()
+    printed = 0
     with StopFlag() as stop, command_node("acts_echo") as (node, executor):
-        printer = Printer(node, topic, arguments.number)
+        inbox = Inbox(node, topic)
         end_s = float("inf") if arguments.duration is None else time.monotonic() + arguments.duration
-        while not (stop.is_set or printer.is_done) and time.monotonic() < end_s:
-            printer.discover()
+        while not stop.is_set and printed != arguments.number and time.monotonic() < end_s:
+            inbox.discover()
             spin_for(executor, min(_TURN_S, max(end_s - time.monotonic(), 0.001)))
-    if not printer.printed:
-        print(f"{topic}: {'no message came' if printer.is_found else 'no publisher found'}", file=sys.stderr)
-    return 0 if printer.printed else 1
+            # Printed here, not in the callback: rclpy would report a reader that has ended (`| head`) as an error.
+            for message in inbox.take():
+                print(f"{message_text(message)}---", flush=True)
+                printed += 1
+                if stop.is_set or printed == arguments.number:
+                    break
+    if not printed:
+        print(f"{topic}: {'no message came' if inbox.is_found else 'no publisher found'}", file=sys.stderr)
+    return 0 if printed else 1

@@ -1,21 +1,22 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Subscribe to a topic as soon as it appears, and print its messages."""
+"""Subscribe to a topic as soon as it appears, and keep its messages until they are taken."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterator
 from typing import Any
 
 from rclpy.node import Node
 
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription
-from acts_tools.echo.message_text import message_text
 
 
-class Printer:
-    """Prints the messages of a topic to standard output.
+class Inbox:
+    """The messages of a topic that nobody has taken yet.
 
     Parameters
     ----------
@@ -23,28 +24,18 @@ class Printer:
         Node of the subscription; the caller spins it.
     topic : str
         Full name.
-    number : int or None
-        Of messages to print; None for all.
 
     Attributes
     ----------
     is_found : bool
         Whether the topic has appeared.
-    printed : int
-        Number of messages that were printed.
     """
 
-    def __init__(self, node: Node, topic: str, number: int | None) -> None:
+    def __init__(self, node: Node, topic: str) -> None:
         self.is_found = False
-        self.printed = 0
         self._node = node
         self._topic = topic
-        self._number = number
-
-    @property
-    def is_done(self) -> bool:
-        """Whether all messages that are wanted have been printed."""
-        return self.printed == self._number
+        self._messages: deque[Any] = deque()
 
     def discover(self) -> None:
         """Subscribe once the topic has a publisher; to be called regularly.
@@ -60,9 +51,12 @@ class Printer:
         if offers:
             self.is_found = True
             kind = message_class(offers[0].topic_type)
-            self._node.create_subscription(kind, self._topic, self._print, for_subscription(offers))
+            self._node.create_subscription(kind, self._topic, self._keep, for_subscription(offers))
 
-    def _print(self, message: Any) -> None:
-        if not self.is_done:
-            self.printed += 1
-            print(f"{message_text(message)}---", flush=True)
+    def take(self) -> Iterator[Any]:
+        """The messages, the oldest first."""
+        while self._messages:
+            yield self._messages.popleft()
+
+    def _keep(self, message: Any) -> None:
+        self._messages.append(message)

@@ -90,6 +90,25 @@ def test_the_command_prints_as_many_messages_as_are_wanted(talker: Node) -> None
     assert second["number"] == first["number"] + 1
 
 
+def test_a_reader_that_ends_ends_the_command_without_a_word(talker: Node) -> None:
+    impacts = talker.create_publisher(Impact, "/plate/impacts", STREAM)
+    command = [sys.executable, "-m", "acts_tools", "echo", "plate/impacts"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline_s = time.monotonic() + DEADLINE_S
+    assert process.stdout is not None
+    process.stdout.close()
+    try:
+        while process.poll() is None:
+            assert time.monotonic() < deadline_s
+            impacts.publish(Impact())
+            time.sleep(0.01)  # the rate of the messages
+    finally:
+        process.kill()
+    assert process.stderr is not None
+    with process.stderr as errors:
+        assert (process.wait(), errors.read()) == (1, "")
+
+
 def test_who_hears_nothing_is_told(talker: Node) -> None:
     command = [sys.executable, "-m", "acts_tools", "echo", "-d", "0.3", "/nobody"]
     finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
