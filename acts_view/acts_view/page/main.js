@@ -106,5 +106,7 @@ document.addEventListener("keydown", (event) => {
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
 onChange(show);
 show();
-setInterval(() => panels.tick(replay.isHeld), TICK_MS);
+setInterval(() => {
+  if (!document.hidden) panels.tick(replay.isHeld);
+}, TICK_MS);
 useConnection(connect(onMessage, onState));

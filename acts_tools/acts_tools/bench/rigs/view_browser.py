@@ -22,7 +22,8 @@ from pathlib import Path
 from acts_tools.bench.rigs.view_clients import Watched
 
 _OPEN_MS = 60_000
-# Of each picture of the taxels, from the stamp of what it shows to the turn in which the browser shows it [ms].
+# Of each picture of the taxels, from the stamp of what it shows to the turn in which the browser shows it [ms]. The
+# page draws in that turn.
 _WATCH = """
 window.ages_ms = [];
 let stamp_s = null;
@@ -35,8 +36,7 @@ JSON.parse = (text) => {
 const put = CanvasRenderingContext2D.prototype.putImageData;
 CanvasRenderingContext2D.prototype.putImageData = function (...what) {
   put.apply(this, what);
-  const shown_s = stamp_s;
-  if (shown_s !== null) requestAnimationFrame(() => window.ages_ms.push(Date.now() - 1000 * shown_s));
+  if (stamp_s !== null) window.ages_ms.push(Date.now() - 1000 * stamp_s);
 };
 """
 

@@ -62,6 +62,7 @@ export class Panel {
     this.isHeld = false;
     this.message = null;
     this.coming = null;
+    this.drawing = null; // asked for, but not done yet
     this.element = document.createElement("article");
     this.element.className = "card skin";
     this.element.dataset.skin = name;
@@ -103,13 +104,16 @@ export class Panel {
     this.message = message;
     this.regions.take(message.hand);
     this.view.setState(message);
-    this.#showTop();
+    // With the next picture of the screen: where drawing takes longer than from one message to the next, messages would
+    // pile up and ever older ones be shown. Of a page that nobody sees a browser makes no picture.
+    this.drawing ??= requestAnimationFrame(() => this.#drawSkin());
   }
 
   /** Hold what is shown, or go on. */
   hold(isHeld) {
     this.isHeld = isHeld;
     if (!isHeld && this.coming) this.describe(this.coming);
+    this.#drawSkin();
     this.plots.hold(isHeld);
     // The figures beside the picture that is held are its own.
     this.#showFigures(performance.now());
@@ -119,8 +123,7 @@ export class Panel {
   /** After a change of what is to be shown. */
   redraw() {
     this.find(".ramp").style.background = gradient(settings.colours);
-    this.view.draw();
-    this.#showTop();
+    this.#drawSkin();
     this.plots.draw(true);
   }
 
@@ -181,7 +184,9 @@ export class Panel {
     this.regions.show(this.message.regions, this.message.hand);
   }
 
-  #showTop() {
+  #drawSkin() {
+    this.drawing = null;
+    this.view.draw();
     const { top, unit } = this.view.taxels;
     setText(this.find(".top"), inUnit(top, unit));
     setText(this.find(".unit"), unit);

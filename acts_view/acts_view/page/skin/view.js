@@ -49,13 +49,12 @@ export class SkinView {
     this.draw();
   }
 
-  /** The newest state. */
+  /** The newest state, to be drawn by `draw`. */
   setState(message) {
     this.state = message;
     this.marks.remember(message);
     const image = this.geometry && this.#array("image");
     if (image) this.taxels.follow(image);
-    this.draw();
   }
 
   /** The canvases, one over another. */
