@@ -30,6 +30,7 @@ from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
 from acts_view.nodes.view_node import ViewNode
 from acts_view.recording.bounded_bag import BoundedBag
+from acts_view.recording.recording import Recording
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -236,3 +237,21 @@ def test_a_person_records_and_downloads(
     assert name.startswith("touch_")
     downloading.value.save_as(tmp_path / name)
     assert sequences(tmp_path / name)
+
+
+class NoFeed:
+    """Fills a bag with nothing."""
+
+    messages = lost = 0
+
+    def step(self) -> None:
+        """See `Feed`."""
+
+    def close(self) -> None:
+        """See `Feed`."""
+
+
+def test_a_skin_in_the_root_namespace_is_named(tmp_path: Path) -> None:
+    recording = Recording(tmp_path, 1_000_000, lambda: ("", "/foot"), lambda _skins, _bag: NoFeed(), lambda *_: None)
+    assert recording.start().startswith("recording /, /foot to ")
+    recording.close()

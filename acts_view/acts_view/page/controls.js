@@ -4,6 +4,7 @@
 // What the nodes can be asked for, as far as the server lets a page ask, and what they have answered.
 
 import { ask } from "./requests.js";
+import { nameOf } from "./words.js";
 
 const BUTTONS = [
   { do: "tare", title: "Tare" },
@@ -68,7 +69,7 @@ export class Controls {
     button.dataset.do = what;
     if (moves) button.dataset.moves = "";
     if (stops) button.dataset.stops = "";
-    button.onclick = () => this.#ask(`${title}, ${of || "/"}`, what, { skin: of });
+    button.onclick = () => this.#ask(`${title}, ${nameOf(of)}`, what, { skin: of });
     return button;
   }
 
@@ -89,7 +90,7 @@ export class Controls {
     field.onchange = () => {
       const value = name === "scheme" ? field.value : field.valueAsNumber;
       refused.textContent = name === "scheme" ? "" : refusal(value, least, most);
-      if (!refused.textContent) this.#ask(`${title}, ${of || "/"}`, "set", { skin: of, name, value });
+      if (!refused.textContent) this.#ask(`${title}, ${nameOf(of)}`, "set", { skin: of, name, value });
     };
     label.append(field);
     const both = document.createElement("span");
@@ -140,6 +141,6 @@ function arrange(parent, keys, make) {
 
 function heading(of) {
   const element = document.createElement("h3");
-  element.textContent = of || "/";
+  element.textContent = nameOf(of);
   return element;
 }

@@ -11,6 +11,7 @@ import { Recording } from "./recording.js";
 import { Replay } from "./replay.js";
 import { answered, forgetAll, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
+import { nameOf } from "./words.js";
 
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
@@ -49,7 +50,7 @@ function showWhyEmpty(names) {
   const [none, named] = [".none", ".named"].map((part) => byId("empty").querySelector(part));
   none.hidden = names.length > 0;
   named.hidden = !none.hidden;
-  named.querySelector("strong").textContent = names.join(", ");
+  named.querySelector("strong").textContent = names.map(nameOf).join(", ");
 }
 
 function onState(state) {

@@ -9,6 +9,11 @@ export function rounded(value, digits) {
   return Number(words) === 0 ? (0).toFixed(digits) : words;
 }
 
+/** A namespace as it is said: that of the root is empty. */
+export function nameOf(namespace) {
+  return namespace || "/";
+}
+
 /** Let an element say these; one that says so already is not touched, since what changes may be read out. */
 export function setText(element, words) {
   if (element.textContent !== words) element.textContent = words;

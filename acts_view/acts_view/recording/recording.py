@@ -113,7 +113,7 @@ class Recording:
             raise ViewRequestError(f"nothing is recorded: {error}") from error
         self._present = _Present(name, bag, self._feed(skins, bag), time.monotonic())
         self._note = ""
-        return f"recording {', '.join(skins)} to {bag.path}"
+        return f"recording {', '.join(name or '/' for name in skins)} to {bag.path}"
 
     def stop(self) -> str:
         """End; what was recorded, in words.

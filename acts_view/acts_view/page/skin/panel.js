@@ -12,7 +12,7 @@ import { Regions } from "./regions.js";
 import { saveContacts, savePicture, savePlots, saveTaxels } from "./saving.js";
 import { settings } from "../settings.js";
 import { SkinView } from "./view.js";
-import { rounded, setText } from "../words.js";
+import { nameOf, rounded, setText } from "../words.js";
 
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
@@ -68,8 +68,8 @@ export class Panel {
     this.element.dataset.skin = name;
     this.element.innerHTML = MARKUP;
     this.find = (selector) => this.element.querySelector(selector);
-    this.find("h2").textContent = name;
-    this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${name}; arrow keys move from taxel to taxel`);
+    this.find("h2").textContent = nameOf(name);
+    this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${nameOf(name)}; arrow keys move from taxel to taxel`);
     this.view = new SkinView(this.find(".canvases"), (text) => { this.find(".pointed").textContent = text; });
     this.plots = new Plots(this.find(".plots"), this.history, onHold);
     this.objects = new Objects(this.find(".object"));

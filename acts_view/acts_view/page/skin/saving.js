@@ -4,6 +4,7 @@
 // What is shown of a skin as files: a picture, and tables of its taxels, its contacts and its plots.
 
 import { save } from "../files.js";
+import { nameOf } from "../words.js";
 import { AGE_UNKNOWN } from "./view.js";
 
 const CAPTION_PX = 28;
@@ -27,7 +28,7 @@ export function savePicture(layers, name, stamp_s, scale) {
   context.fillStyle = "#1b2326";
   context.font = `${13 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
   context.textBaseline = "middle";
-  const text = `${name}   ${new Date(1000 * stamp_s).toISOString()}   ${scale}`;
+  const text = `${nameOf(name)}   ${new Date(1000 * stamp_s).toISOString()}   ${scale}`;
   context.fillText(text, 6 * ratio, canvas.height - caption / 2, canvas.width - 12 * ratio);
   canvas.toBlob((picture) => save(`${fileName(name, stamp_s)}.png`, [picture], "image/png"), "image/png");
 }
