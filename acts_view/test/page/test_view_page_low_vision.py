@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 from view_browser import BROWSER, DEADLINE_MS, expect, needs_browser
 from view_player import Player
@@ -106,3 +107,47 @@ def test_all_text_is_as_large_as_its_reader_wants_it_and_the_page_no_wider(
     picture = page.locator(".canvases").bounding_box()
     assert picture is not None
     assert picture["width"] >= min(width / 2, 700)
+
+
+def test_of_a_taxel_that_is_pointed_at_only_what_a_person_does_is_read_out(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    forces = count(100)
+
+    def change(frame: Frame) -> Frame:
+        assert frame.image is not None
+        return replace(frame, image=np.full_like(frame.image, next(forces)))
+
+    page = open_page(play(change=change))
+    pointed = page.locator(".pointed")
+    page.focus("canvas.marks")
+    page.evaluate(LISTEN)
+    page.keyboard.press("ArrowDown")
+    expect(pointed).to_contain_text("row 16, column 16 ·")
+    before = pointed.inner_text()
+    expect(pointed).not_to_have_text(before)
+    page.keyboard.press("ArrowDown")
+    expect(pointed).to_contain_text("row 17, column 16 ·")
+    told = page.evaluate("() => window.told")
+    assert [words.split(" · ")[0] for words in told] == ["row 16, column 16", "row 17, column 16"]
+    assert "counts" in told[0]
+
+
+def test_where_a_system_chooses_the_colours_one_sees_which_buttons_are_pressed_and_the_scale(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), forced_colors="active")
+    style = "(element, name) => getComputedStyle(element)[name]"
+    contacts, smooth = page.locator("#contacts"), page.locator("#smooth")
+    expect(contacts).to_have_attribute("aria-pressed", "true")
+    expect(smooth).to_have_attribute("aria-pressed", "false")
+    assert contacts.evaluate(style, "backgroundColor") != smooth.evaluate(style, "backgroundColor")
+    for drawn in (".ramp", ".bar-of-force", ".bar-of-force i"):
+        assert page.locator(drawn).first.evaluate(style, "forcedColorAdjust") == "none", drawn
+
+
+def test_the_buttons_of_the_bar_are_a_group_and_promise_no_keys_of_a_toolbar(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    expect(page.get_by_role("group", name="What is shown").get_by_role("button", name="Pause")).to_be_visible()

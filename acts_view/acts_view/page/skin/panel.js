@@ -35,7 +35,7 @@ const MARKUP = `
     <div class="picture">
       <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
       <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
-      <p class="pointed" aria-live="polite"></p>
+      <p class="pointed"></p><p class="unseen" role="status"></p>
       <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
     </div>
     <div class="facts">
@@ -70,7 +70,11 @@ export class Panel {
     this.find = (selector) => this.element.querySelector(selector);
     this.find("h2").textContent = nameOf(name);
     this.find("canvas.marks").setAttribute("aria-label", `tactile image of ${nameOf(name)}; arrow keys move from taxel to taxel`);
-    this.view = new SkinView(this.find(".canvases"), (text) => { this.find(".pointed").textContent = text; });
+    this.view = new SkinView(this.find(".canvases"), (text, isMoved) => {
+      setText(this.find(".pointed"), text);
+      // Read out is where a person goes, not how the value changes there thirty times a second.
+      if (isMoved) setText(this.find(".unseen"), text);
+    });
     this.plots = new Plots(this.find(".plots"), this.history, onHold);
     this.objects = new Objects(this.find(".object"));
     this.ball = new Ball(this.find(".ball"));

@@ -14,7 +14,7 @@ export const AGE_UNKNOWN = 65535;
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 
 export class SkinView {
-  /** Draws into the two canvases of `element`; calls onPoint(text) with what is under the cursor. */
+  /** Draws into the two canvases of `element`; calls onPoint(text, isMoved) with what is under the cursor. */
   constructor(element, onPoint) {
     this.element = element;
     this.onPoint = onPoint;
@@ -72,7 +72,7 @@ export class SkinView {
     this.geometry.fit(wide);
     this.taxels.draw(this.#array("image"), settings.unsure ? this.#array("confidence") : null);
     this.#drawMarks();
-    if (this.pointed) this.#tell();
+    if (this.pointed) this.#tell(false);
   }
 
   #drawMarks() {
@@ -103,14 +103,14 @@ export class SkinView {
 
   #point(taxel) {
     this.pointed = taxel;
-    this.#tell();
+    this.#tell(true);
     if (this.geometry) this.#drawMarks();
   }
 
-  #tell() {
+  #tell(isMoved) {
     const image = this.geometry && this.#array("image");
     if (!this.pointed || !image) {
-      this.onPoint("");
+      this.onPoint("", isMoved);
       return;
     }
     const { row, col } = this.pointed;
@@ -124,7 +124,7 @@ export class SkinView {
     if (confidence) words.push(uncertainty(confidence[place]));
     const age = this.#array("age");
     if (age) words.push(measured(age[place]));
-    this.onPoint(words.join(" · "));
+    this.onPoint(words.join(" · "), isMoved);
   }
 }
 
