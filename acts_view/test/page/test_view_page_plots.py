@@ -1,17 +1,20 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Plots of the page in a real browser: a part of them is chosen by mouse and by keys."""
+"""Plots of the page in a real browser: a part of them is chosen by mouse and by keys, and a slow skin has some."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from view_browser import expect, needs_browser
-from view_player import Player, saved_table
+from view_player import Player, pressed, saved_table
+
+from acts_view.skin.snapshot import Sample, SkinShape
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -56,3 +59,32 @@ def test_keys_zoom_the_plots_and_move_the_part(
     assert before[0] < half[0] < before[-1] < half[-1]
     assert half_again == pytest.approx(half, abs=0.009)
     assert part_again == pytest.approx(part, abs=0.009)
+
+
+def test_a_skin_that_is_slow_has_plots_and_a_rate(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    player = play(())
+    player.server.show_shape("/plate", SkinShape())
+    now_s = time.time()
+    name, frame, _ = pressed("/plate", now_s)
+    player.server.show_frame(name, frame, [Sample(now_s - 20 + number, 0.5, 0.5, 0) for number in range(21)])
+    page = open_page(player, is_live=False)
+    expect(page.locator("[data-number=rate]")).to_have_text("1.0")
+    for plot in ("force", "latency"):
+        dots = page.evaluate(
+            """(plot) => {
+              const canvas = document.querySelector(`[data-plot=${plot}] canvas`);
+              const wanted = getComputedStyle(document.documentElement).getPropertyValue(`--plot-${plot}`).trim();
+              const [red, green, blue] = [1, 3, 5].map((at) => parseInt(wanted.slice(at, at + 2), 16));
+              const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+              const isDrawn = Array.from({ length: canvas.width }, (_, x) => {
+                for (let at = 4 * x; at < data.length; at += 4 * canvas.width) {
+                  if (data[at] === red && data[at + 1] === green && data[at + 2] === blue && data[at + 3] === 255) return true;
+                }
+                return false;
+              });
+              return isDrawn.filter((drawn, x) => drawn && !isDrawn[x - 1]).length;
+            }""",
+            plot,
+        )
+        # Of five seconds; the first and the last may be at the edge.
+        assert 4 <= dots <= 6, plot

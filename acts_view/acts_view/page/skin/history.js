@@ -9,6 +9,7 @@ const WIDTH = 7;
 const INTERVAL_S = 0.008;
 const CAPACITY = 7500;
 const GAP_S = 0.1;
+const LEAST_ROWS = 10; // fewer in a second do not tell a rate
 /** Rate and losses are counted over so long. */
 export const BIN_S = 0.2;
 
@@ -48,6 +49,15 @@ export class History {
 
   get newest_s() {
     return this.rows.length ? this.rows[this.rows.length - 1][0] + INTERVAL_S : 0;
+  }
+
+  /** Frames a second, over the last second, or of a slow skin longer; NaN where it is not known. */
+  get rate_hz() {
+    const second = this.#last(1);
+    const rows = second.length > LEAST_ROWS ? second : this.rows.slice(-LEAST_ROWS);
+    if (rows.length < 2) return NaN;
+    const frames = rows.slice(1).reduce((sum, row) => sum + row[FRAMES], 0);
+    return frames / (rows[rows.length - 1][0] - rows[0][0]);
   }
 
   /**

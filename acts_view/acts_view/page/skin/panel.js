@@ -5,7 +5,7 @@
 
 import { Ball } from "./ball.js";
 import { gradient } from "./colours.js";
-import { BIN_S, FRAMES, History, LATENCY, LOST } from "./history.js";
+import { History, LATENCY, LOST } from "./history.js";
 import { Objects } from "./objects.js";
 import { Plots } from "./plots.js";
 import { Regions } from "./regions.js";
@@ -200,7 +200,7 @@ export class Panel {
     const { touch } = this.message;
     const [x_m, y_m, force_n, peak, area_m2] = touch ?? [];
     const history = this.plots.held ?? this.history;
-    const [, frames] = history.sums(FRAMES, 1);
+    const { rate_hz } = history;
     const [, lost] = history.sums(LOST, 60);
     const [, latencies] = history.extremes(LATENCY, 1, 1);
     const nothing = (words) => (this.#isHeard ? words : "–");
@@ -210,7 +210,7 @@ export class Panel {
       y: touch ? rounded(1000 * y_m, 1) : "–",
       peak: touch ? peak.toFixed(0) : nothing("0"),
       area: touch ? (1e6 * area_m2).toFixed(0) : nothing("0"),
-      rate: frames.length ? (frames.reduce((sum, count) => sum + count, 0) / (frames.length * BIN_S)).toFixed(0) : "–",
+      rate: Number.isNaN(rate_hz) ? "–" : rate_hz.toFixed(rate_hz < 10 ? 1 : 0),
       latency: latencies.length ? Math.max(...latencies).toFixed(1) : "–",
       lost: nothing(lost.reduce((sum, count) => sum + count, 0).toFixed(0)),
     };

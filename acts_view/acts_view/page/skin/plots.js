@@ -125,12 +125,18 @@ export class Plots {
   }
 }
 
+/** Where a series has values with a gap on both sides, as all of a slow skin: no line shows them, so they are dots. */
+function alone(plot, series) {
+  const values = plot.data[series];
+  return Array.from(values.keys()).filter((at) => values[at] !== null && (values[at - 1] ?? values[at + 1] ?? null) === null);
+}
+
 function options(kind, onZoom, onReset) {
   const ink = colour("--ink-soft");
   const line = colour(`--plot-${kind.name}`);
   const fill = colour(`--plot-${kind.name}-fill`);
   const axis = { stroke: ink, font: `${11 * textScale()}px system-ui, sans-serif`, ticks: { show: false }, grid: { stroke: colour("--line"), width: 1 } };
-  const series = { stroke: line, width: 1.25, points: { show: false }, spanGaps: false };
+  const series = { stroke: line, width: 1.25, points: { show: false, filter: alone, size: 4, fill: line }, spanGaps: false };
   const values = kind.isBars
     ? [{ ...series, width: 0, fill: line, paths: uPlot.paths.bars({ size: [0.8, 12] }) }]
     : kind.name === "rate" ? [series] : [series, series];
