@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import Image, JointState
 
-from acts_core.array import MAX_SIDE
+from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_msgs.msg import (
     BalanceStatus,
@@ -159,7 +159,8 @@ class SkinTopics:
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
         self._frame = Frame(
             stamp_s=old.stamp_s if stamp_s is None else stamp_s,
-            image=old.image if image is None else image,
+            # More than a converter can give has no colour and no force.
+            image=old.image if image is None else np.minimum(image, COUNT_MAX),
             confidence=old.confidence if confidence is None else confidence,
             age_s=old.age_s if age_s is None else age_s,
             contact_numbers=numbers,

@@ -131,6 +131,16 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     assert (bench.arrays["image"] == 300).all()
 
 
+def test_more_than_a_board_can_count_is_shown_as_the_most(bench: Bench) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    data = array("B", np.full(64, 4000, "<u2").tobytes())
+    message = Image(height=8, width=8, encoding="mono16", step=16, data=data)
+
+    with bench.connect() as client:
+        bench.until(lambda: "image" in bench.arrays, client, lambda: image.publish(message))
+    assert (bench.arrays["image"] == 1023).all()
+
+
 def test_contacts_that_come_many_in_a_message_are_all_plotted(bench: Bench) -> None:
     publisher = bench.skin.create_publisher(ContactSeries, "view/contact_series", qos.VIEW)
     sent = 0

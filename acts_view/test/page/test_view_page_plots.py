@@ -76,10 +76,10 @@ def test_a_skin_that_is_slow_has_plots_and_a_rate(play: Callable[..., Player], o
               const wanted = getComputedStyle(document.documentElement).getPropertyValue(`--plot-${plot}`).trim();
               const [red, green, blue] = [1, 3, 5].map((at) => parseInt(wanted.slice(at, at + 2), 16));
               const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+              const isLine = (at) =>
+                data[at] === red && data[at + 1] === green && data[at + 2] === blue && data[at + 3] === 255;
               const isDrawn = Array.from({ length: canvas.width }, (_, x) => {
-                for (let at = 4 * x; at < data.length; at += 4 * canvas.width) {
-                  if (data[at] === red && data[at + 1] === green && data[at + 2] === blue && data[at + 3] === 255) return true;
-                }
+                for (let at = 4 * x; at < data.length; at += 4 * canvas.width) if (isLine(at)) return true;
                 return false;
               });
               return isDrawn.filter((drawn, x) => drawn && !isDrawn[x - 1]).length;
