@@ -129,11 +129,10 @@ int acts_sampler_map(ActsSampler* sampler, int rows, int cols, int no_skin, cons
   return its.put_map(0, entries, rows * cols) && its.finish_map(rows, cols, no_skin, crc32) ? 1 : 0;
 }
 
-// What the schemes say of themselves: for each a line of name, number, description, whether it measures all; then a
-// line for each of its own settings, of number, name, description, initial value, minimum, maximum, and of the share
-// that it is given as name, description and initial value (empty, empty, 0 for none), and whether it is below rows or
-// cols. Separated by tabs; the last field
-// of a scheme's line is the number of such lines that follow it.
+// What the schemes say of themselves, in lines of fields that tabs separate. A scheme's line: name, number,
+// description, whether it measures all, and the number of its own settings. Then a line for each of these: number,
+// name, description, initial value, minimum, maximum; name, description and initial value of the share that it is given
+// as (empty, empty, 0 for none); and "rows" or "cols" where it is below these.
 const char* acts_sampler_schemes() {
   static const std::string kTable = scheme_table();
   return kTable.c_str();

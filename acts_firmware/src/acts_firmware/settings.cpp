@@ -5,14 +5,6 @@
 
 namespace acts {
 
-namespace {
-
-constexpr bool within(int value, int minimum, int maximum) {
-  return value >= minimum && value <= maximum;
-}
-
-}  // namespace
-
 SettingField out_of_range(const Settings& settings, int lines) {
   const SamplingConfig& sampling = settings.sampling;
   if (!within(sampling.rows, 1, lines)) {

@@ -142,11 +142,10 @@ void FaultyLink::distort() {
 
 void FaultyLink::distort_once() {
   const Fault fault = armed_.front();
-  const auto size = static_cast<std::uint32_t>(packet_.size());
   if (fault.kind == FaultKind::kStall || cuts_the_stream(fault)) {
     armed_.pop_front();
     interruption_ = fault;
-    cut_at_ = 1 + random_.below(size - 1);
+    cut_at_ = 1 + random_.below(static_cast<std::uint32_t>(packet_.size()) - 1);
     return;
   }
   if (counts_frames(fault) && !is_frame()) {
@@ -157,53 +156,47 @@ void FaultyLink::distort_once() {
     left_ = fault.value;
     report_(fault, false);
   }
+  left_ -= change_packet(fault, begins);
+  if (left_ == 0.0) {
+    report_(fault, true);
+    armed_.pop_front();
+  }
+}
+
+double FaultyLink::change_packet(const Fault& fault, bool begins) {
+  const auto size = static_cast<std::uint32_t>(packet_.size());
   const auto count = static_cast<std::size_t>(fault.value);
   switch (fault.kind) {
     case FaultKind::kGarbage:
       scratch_.resize(count);
       std::generate(scratch_.begin(), scratch_.end(), [this] { return static_cast<std::uint8_t>(random_.below(256)); });
       packet_.insert(packet_.begin(), scratch_.begin(), scratch_.end());
-      left_ = 0.0;
-      break;
+      return fault.value;
     case FaultKind::kFlip:
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t bit = random_.below(8 * size);
         packet_[bit / 8] = static_cast<std::uint8_t>(packet_[bit / 8] ^ 1U << bit % 8);
       }
-      left_ = 0.0;
-      break;
+      return fault.value;
     case FaultKind::kDrop:
       packet_.clear();
-      left_ -= 1.0;
-      break;
+      return 1.0;
     case FaultKind::kDouble:
       scratch_ = packet_;
       packet_.insert(packet_.end(), scratch_.begin(), scratch_.end());
-      left_ -= 1.0;
-      break;
+      return 1.0;
     case FaultKind::kTruncate:
       packet_.erase(packet_.begin() + random_.below(size - 1), packet_.end() - 1);
-      left_ -= 1.0;
-      break;
+      return 1.0;
     case FaultKind::kLose: {
       const std::uint32_t from = begins ? random_.below(size) : 0;
       const double lost = std::min(left_, static_cast<double>(size - from));
       packet_.erase(packet_.begin() + from, packet_.begin() + from + static_cast<std::ptrdiff_t>(lost));
-      left_ -= lost;
-      break;
+      return lost;
     }
-    default:  // handled above, or by the process
-      left_ = 0.0;
-      break;
+    default:  // is none of a packet
+      return fault.value;
   }
-  if (left_ == 0.0) {
-    end_front();
-  }
-}
-
-void FaultyLink::end_front() {
-  report_(armed_.front(), true);
-  armed_.pop_front();
 }
 
 void FaultyLink::flip_bits_at_rate() {

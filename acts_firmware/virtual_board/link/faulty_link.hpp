@@ -43,9 +43,10 @@ class FaultyLink {
   bool is_frame() const;
   void distort();
   void distort_once();
+  // Does to the packet what a fault does; returns how much of the fault's value that was.
+  double change_packet(const Fault& fault, bool begins);
   void flip_bits_at_rate();
   void set_version();
-  void end_front();
 
   Pcg32 random_;
   Protocol protocol_;

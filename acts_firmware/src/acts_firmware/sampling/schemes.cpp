@@ -11,10 +11,6 @@ namespace acts {
 
 namespace {
 
-constexpr bool within(int value, int first, int last) {
-  return first <= value && value <= last;
-}
-
 // Of a setting in a frame of its scheme.
 int largest(const OwnSetting& setting, const SamplingConfig& config) {
   switch (setting.below) {

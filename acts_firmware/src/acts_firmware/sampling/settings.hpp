@@ -64,6 +64,10 @@ bool operator==(const SamplingConfig& one, const SamplingConfig& other);
 // The first setting with which a sampler could not work; what is only out of its range on the wire is left out.
 SettingField check(const SamplingConfig& config);
 
+constexpr bool within(int value, int minimum, int maximum) {
+  return minimum <= value && value <= maximum;
+}
+
 // The number of taxels that is a share (above 0, up to 1) of m, rounded up.
 int quota_of(double share, int m);
 
