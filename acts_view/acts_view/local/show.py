@@ -14,6 +14,7 @@ from queue import SimpleQueue
 from acts_core.errors import ActsError
 from acts_core.stop_signals import StopSignals
 from acts_view.local.sources import LocalSource
+from acts_view.settings import ViewSettings
 from acts_view.web.requests import Answer, Request
 from acts_view.web.server import ViewServer
 
@@ -27,7 +28,6 @@ def show(
     host: str,
     port: int,
     signals: StopSignals,
-    rate_hz: float = 30.0,
     on_address: Callable[[str], None] | None = None,
 ) -> int:
     """Serve the page until told to stop; the exit code.
@@ -41,8 +41,6 @@ def show(
         As `ViewServer` takes them.
     signals : StopSignals
         Ends it.
-    rate_hz : float
-        How often the page is sent what is new [Hz].
     on_address : callable, optional
         Takes the page's address; without, it is printed.
     """
@@ -63,7 +61,7 @@ def show(
         server.show_shape(name, source.skin.shape)
         source.start(lambda: server.forget(name))
         told_s = -_STATUS_PERIOD_S
-        while not stopped.wait(1.0 / rate_hz):
+        while not stopped.wait(1.0 / ViewSettings.rate_hz):
             while not asked.empty():
                 _act(source, *asked.get())
             newest = source.skin.newest()

@@ -163,9 +163,7 @@ class ViewNode(PollingNode):
             self._ask_shape(name)
         told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
         diagnostics = [*self._mixtures(), *self._statuses()]
-        self._server.show_status(
-            {"time_s": time.time(), "pages": self._pages, "skins": self._names, "diagnostics": diagnostics, **told}
-        )
+        self._server.show_status({"skins": self._names, "diagnostics": diagnostics, **told})
 
     def _leave(self) -> None:
         with self._lock:

@@ -26,6 +26,7 @@ const replay = new Replay(document.getElementById("replay"));
 const recording = new Recording(document.getElementById("recording"));
 const controls = new Controls(document.getElementById("controls"));
 
+const darkSystem = matchMedia("(prefers-color-scheme: dark)");
 const byId = (id) => document.getElementById(id);
 
 function onMessage(message) {
@@ -73,7 +74,7 @@ function show() {
   for (const name of LISTS) byId(name).value = settings[name];
   for (const name of SWITCHES) byId(name).setAttribute("aria-pressed", String(settings[name]));
   byId("theme").textContent = `Theme: ${settings.theme}`;
-  document.documentElement.dataset.theme = settings.theme;
+  document.documentElement.dataset.theme = settings.theme === "auto" ? (darkSystem.matches ? "dark" : "light") : settings.theme;
   for (const one of panels) one.redraw();
 }
 
@@ -104,7 +105,7 @@ document.addEventListener("keydown", (event) => {
   else if (replay.isShown) replay.toggle();
   else hold(!panels.isHeld);
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+darkSystem.addEventListener("change", show);
 onChange(show);
 show();
 setInterval(() => {

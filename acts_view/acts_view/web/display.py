@@ -19,8 +19,8 @@ from acts_view.web.codec import encode
 
 
 class _Skin:
-    def __init__(self, name: str, interval_s: float, length_s: float) -> None:
-        self.history = History(interval_s, length_s)
+    def __init__(self, name: str) -> None:
+        self.history = History()
         self.frame = Frame()
         self.frames = 0
         self.shape: SkinShape | None = None
@@ -57,17 +57,9 @@ class _Skin:
 
 
 class Display:
-    """The newest state of all skins and of the diagnostics. All of it is for one thread, that of the event loop.
+    """The newest state of all skins and of the diagnostics. All of it is for one thread, that of the event loop."""
 
-    Parameters
-    ----------
-    interval_s, length_s : float
-        Of the history of every skin, see `History`.
-    """
-
-    def __init__(self, interval_s: float = 0.008, length_s: float = 60.0) -> None:
-        self._interval_s = interval_s
-        self._length_s = length_s
+    def __init__(self) -> None:
         self._skins: dict[str, _Skin] = {}
         self._status = b""
 
@@ -93,7 +85,7 @@ class Display:
 
     def _skin(self, name: str) -> _Skin:
         if name not in self._skins:
-            self._skins[name] = _Skin(name, self._interval_s, self._length_s)
+            self._skins[name] = _Skin(name)
         return self._skins[name]
 
 

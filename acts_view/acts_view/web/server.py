@@ -110,7 +110,6 @@ class ViewServer:
         Acts on what pages ask for; None: they are refused.
     find_file : callable, optional
         Gives the path of a file that pages may have by its name, or None; called on the server's thread.
-    display : Display, optional
 
     Raises
     ------
@@ -128,9 +127,8 @@ class ViewServer:
         log: LogCallback,
         on_request: RequestHandler | None = None,
         find_file: Callable[[str], Path | None] | None = None,
-        display: Display | None = None,
     ) -> None:
-        self._display = Display() if display is None else display
+        self._display = Display()
         self._send_limit_s = send_limit_s
         self._on_clients = on_clients
         self._log = log

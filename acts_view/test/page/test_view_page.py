@@ -179,6 +179,19 @@ def test_choices_act_and_survive_a_reload(play: Callable[..., Player], open_page
     assert tuple(taxel_colours(page)[31, 0]) == (0x00, 0x22, 0x4E)
 
 
+def test_the_page_is_light_or_dark_as_the_system_is_until_one_is_chosen(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), color_scheme="light")
+    body = page.locator("body")
+    expect(body).to_have_css("background-color", "rgb(244, 245, 242)")
+    page.emulate_media(color_scheme="dark")
+    expect(body).to_have_css("background-color", "rgb(16, 20, 21)")
+    page.click("#theme")
+    expect(page.locator("#theme")).to_have_text("Theme: light")
+    expect(body).to_have_css("background-color", "rgb(244, 245, 242)")
+
+
 def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play())
     # A click leaves the focus on the button.
