@@ -86,7 +86,7 @@ def test_the_age_of_contacts_is_the_middle_of_all_reports() -> None:
     link = _Link(None, None, 0)  # type: ignore[arg-type]
     ages_ms = (9.0, 1.0, 4.0, 2.0)
     link._add_contacts(
-        "good", "good cable", [Report({CONTACT: Interval(1.0, 9, 1, ms, ms, 9, 1, 0.0)}, {}) for ms in ages_ms]
+        "good", "good cable", [Report({CONTACT: Interval(1.0, 9, 1, ms, ms, 9, 1, 0.0, False)}, {}) for ms in ages_ms]
     )
     assert {figure.key: figure.value for figure in link.figures} == {
         "good.lost_percent": 10.0,

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
-from acts_sim.hand import HandWorld
-from acts_sim.hand.model import body_index
+from acts_sim.hand import HandWorld, body_index
 
 _MAX_GEOMS = 2500
 _DOT_M = 0.0009
