@@ -199,6 +199,9 @@ def test_a_joint_that_is_said_to_be_where_no_joint_comes_gets_no_torque(bus: Bus
         running.loop.close()
 
 
+STALE_S = 1.0
+
+
 class MadeBus:
     """Motors whose answers are made."""
 
@@ -207,6 +210,8 @@ class MadeBus:
         self.current_ma = [0.0] * 16
         self.moves_to_rad = self.q_rad
         self.is_there = True
+        self.answers = threading.Event()
+        self.answers.set()
         self.has_torque = False
         self.sent: list[list[float]] = []
 
@@ -227,6 +232,7 @@ class MadeBus:
     def read(self) -> HandReading:
         if not self.is_there:
             raise HandLostError("nobody is there any more")
+        self.answers.wait(DEADLINE_S)
         none = (0.0,) * 16
         return HandReading(tuple(self.q_rad), none, tuple(self.current_ma), (30,) * 16, ("",) * 16)
 
@@ -249,7 +255,7 @@ Made = tuple[MadeBus, HandLoop, Callable[[Callable[[], bool]], None]]
 @pytest.fixture
 def made() -> Iterator[Made]:
     bus = MadeBus()
-    config = HandLoopConfig(autostart=False, connect_retry_s=0.05)
+    config = HandLoopConfig(autostart=False, connect_retry_s=0.05, command_stale_after_s=STALE_S)
     loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
 
     def until(condition: Callable[[], bool]) -> None:
@@ -286,6 +292,28 @@ def test_a_hand_that_was_lost_and_then_stopped_gets_no_torque_when_it_is_back(ma
     assert not bus.has_torque
     assert loop.enable() == ""
     assert bus.has_torque
+
+
+def test_what_was_commanded_while_the_loop_stood_still_is_not_done(made: Made) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    until(lambda: len(bus.sent) > 3)
+    bus.answers.clear()
+    begin_s = time.monotonic()
+    until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
+    bus.answers.set()
+    # As from a queue that has waited: now, whether the loop goes on before or after it.
+    loop.command({"index_pip": 0.9})
+    cycles = loop.status.cycles
+    until(lambda: loop.status.cycles > cycles + 20)
+    assert bus.sent[-1] == pytest.approx(bus.q_rad)
+
+    def is_obeyed() -> bool:
+        loop.command({"index_pip": 0.9})
+        return bus.sent[-1][2] > 0.5
+
+    until(is_obeyed)
 
 
 @pytest.mark.parametrize("broken", ["q_rad", "current_ma"])

@@ -64,6 +64,8 @@ class HandLoop:
         self._lock = threading.Lock()
         self._target: dict[int, float] = {}
         self._commanded_s = -1e9
+        self._looked_s = 0.0  # when commands were looked at last
+        self._stood_still_s = -1e9  # when they were again, after nobody had done so for long
         self._wish = TorqueWish(is_on=config.autostart)
         self._is_on = False  # whether the torque of a motor may be on
         self._obeyed_s = 0.0  # when the motors have taken goals last
@@ -85,6 +87,8 @@ class HandLoop:
     def command(self, angles_rad: Mapping[str, float]) -> None:
         """Send joints to angles; those that are not named keep their goal.
 
+        After this program stood still, which is logged, commands are left out for `command_stale_after_s`.
+
         Raises
         ------
         HandError
@@ -98,9 +102,11 @@ class HandLoop:
         broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not math.isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
-        now_s = time.monotonic()
+        now_s, stale_after_s = time.monotonic(), self._config.command_stale_after_s
         with self._lock:
-            if now_s - self._commanded_s > self._config.command_stale_after_s:
+            if now_s - self._stood_still_s < stale_after_s:
+                return
+            if now_s - self._commanded_s > stale_after_s:
                 self._target.clear()
             for name, angle in angles_rad.items():
                 self._target[self._index[name]] = self._hand.joints[self._index[name]].clipped(angle)
@@ -216,7 +222,9 @@ class HandLoop:
                 self._count(cycles=1, late=int(dt_s > 1.5 * period_s))
                 try:
                     reading = self._bus.read()
-                    _check(reading)
+                    broken = reading.not_finite()
+                    if broken:
+                        raise HandError(f"the motors answered with {broken}")
                 except HandLostError:
                     raise
                 except HandError:
@@ -301,6 +309,8 @@ class HandLoop:
             return
         with self._lock:
             self._target.clear()  # what was wanted before is old
+            if not recovered:
+                self._looked_s = time.monotonic()
         for sentence in to_be_brought_back(self._hand, reading):
             self._log("warning", sentence)
         if self._behaviour is not None:
@@ -313,8 +323,17 @@ class HandLoop:
     ) -> tuple[dict[int, float], str]:
         """Where joints are to go, by their numbers, and in words why."""
         if self._behaviour is None:
+            stale_after_s = self._config.command_stale_after_s
             with self._lock:
-                fresh = now_s - self._commanded_s <= self._config.command_stale_after_s
+                before_s, self._looked_s = self._looked_s, time.monotonic()
+                still_s = self._looked_s - before_s
+                if still_s > stale_after_s:
+                    # Commands that have waited meanwhile come at once now, as if they were new.
+                    self._target.clear()
+                    self._stood_still_s = self._looked_s
+                    old = f"commands are left out for {stale_after_s:g} s, because they may have waited"
+                    self._log("warning", f"this program stood still for {still_s:.2g} s: {old}")
+                fresh = now_s - self._commanded_s <= stale_after_s
                 return (dict(self._target), "moving as commanded") if fresh else ({}, "holding")
         wanted = [float(angle) for angle in self._behaviour.step(reading, goal, now_s, dt_s)]
         joints = self._hand.joints
@@ -378,11 +397,3 @@ class HandLoop:
     def _count(self, **counts: int) -> None:
         changed = {name: getattr(self.status, name) + count for name, count in counts.items()}
         self.status = replace(self.status, **changed)  # type: ignore[arg-type]
-
-
-def _check(reading: HandReading) -> None:
-    """Refuse numbers that are not finite: a current that is none would be below every limit."""
-    told = {"angles": reading.q_rad, "speeds": reading.qd_rad_s, "currents": reading.current_ma}
-    for what, numbers in told.items():
-        if not all(map(math.isfinite, numbers)):
-            raise HandError(f"the motors answered with {what} that are not finite: {numbers}")

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
@@ -63,6 +64,17 @@ class HandReading(NamedTuple):
     temperature_c: tuple[int, ...]
     faults: tuple[str, ...]
     is_stopped: bool = False
+
+    def not_finite(self) -> str:
+        """Which of its numbers are not finite, in words; empty where all are.
+
+        A current that is none would be below every limit.
+        """
+        told = {"angles": self.q_rad, "speeds": self.qd_rad_s, "currents": self.current_ma}
+        for what, numbers in told.items():
+            if not all(map(math.isfinite, numbers)):
+                return f"{what} that are not finite: {numbers}"
+        return ""
 
 
 class HandBus(Protocol):
