@@ -7,7 +7,7 @@ In come goals of joints; out come their angles and currents. `HandBus` is the in
 for the LEAP hand; a make of motors is a module here and a line in `registry`.
 """
 
-from acts_control.hand.motors.bus import BusConfig, HandBus, HandError, HandLostError, HandReading
+from acts_control.hand.motors.bus import BusConfig, HandBus, HandError, HandLostError, HandReading, finite_angles
 from acts_control.hand.motors.dynamixel import DynamixelHand
 from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.registry import MOTORS, MotorKind, make_motors, with_motors
@@ -22,6 +22,7 @@ __all__ = [
     "HandLostError",
     "HandReading",
     "MotorKind",
+    "finite_angles",
     "make_motors",
     "with_motors",
 ]

@@ -77,6 +77,20 @@ class HandReading(NamedTuple):
         return ""
 
 
+def finite_angles(q_rad: Sequence[float], joints: int) -> list[float]:
+    """The angles of so many joints, for who sends them and looks at them last [rad].
+
+    Raises
+    ------
+    HandError
+        When one is not finite, or their number is wrong.
+    """
+    q = [float(angle) for angle in q_rad]
+    if len(q) != joints or not all(map(math.isfinite, q)):
+        raise HandError(f"joint angles {q} cannot be sent: {joints} finite numbers are needed")
+    return q
+
+
 class HandBus(Protocol):
     """The motors of a hand. Every method may raise `HandError`: it is logged, and the motors are connected anew.
 

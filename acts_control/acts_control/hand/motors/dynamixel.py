@@ -17,7 +17,7 @@ from pathlib import Path
 
 from acts_control.hand.description import HandDescription, Joint
 from acts_control.hand.motors import dynamixel_table as table
-from acts_control.hand.motors.bus import HandError, HandLostError, HandReading
+from acts_control.hand.motors.bus import HandError, HandLostError, HandReading, finite_angles
 from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.dynamixel_port import DynamixelPort, name_of
 from acts_control.hand.motors.port_words import usb_latency
@@ -189,9 +189,7 @@ class DynamixelHand:
             When an angle is not finite, or their number is wrong: nothing is sent then.
         """
         joints = self._hand.joints
-        q = [float(angle) for angle in q_rad]
-        if len(q) != len(joints) or not all(map(math.isfinite, q)):
-            raise HandError(f"joint angles {q} cannot be sent: {len(joints)} finite numbers are needed")
+        q = finite_angles(q_rad, len(joints))
         self._goal_rad = [
             min(max(angle, min(joint.lower_rad, before)), max(joint.upper_rad, before))
             for joint, angle, before in zip(joints, q, self._goal_rad, strict=True)

@@ -11,10 +11,9 @@ torque off, so what is told here as read is what was sent, and before that the o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import isfinite
 
 from acts_control.hand.description import HandDescription
-from acts_control.hand.motors import HandError, HandReading
+from acts_control.hand.motors import HandReading, finite_angles
 
 TORQUE_STAYS = (
     "nothing is sent until enable is called; the torque stays on: it is the LEAP team's node's, which cannot switch it "
@@ -65,10 +64,8 @@ class CmdLeapBus:
         HandError
             When an angle is not finite, or their number is wrong: nothing is sent then.
         """
-        q = [float(angle) for angle in q_rad]
         joints = self._hand.joints
-        if len(q) != len(joints) or not all(map(isfinite, q)):
-            raise HandError(f"joint angles {q} cannot be sent: {len(joints)} finite numbers are needed")
+        q = finite_angles(q_rad, len(joints))
         self._q = tuple(joint.clipped(angle) for joint, angle in zip(joints, q, strict=True))
         self._publish([joints[k].to_motor_rad(self._q[k]) for k in self._order])
 
