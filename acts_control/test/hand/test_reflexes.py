@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.reflexes import REFLEXES, HandToHandConfig, Wish
+from acts_control.hand.reflexes import REFLEXES, HandState, HandToHandConfig, Wish
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
@@ -358,6 +358,17 @@ def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact
     assert wish is not None
     assert (wish.steps[joints_of("ring")] < 0.0).all()
     assert wish.why == "ring gives way"
+
+
+def test_the_comfort_limit_holds_while_the_hand_closes_and_nothing_is_shared_before_it_holds() -> None:
+    reflex = HandToHand(HandToHandConfig())
+    light, hard = region("index_medial", 0.2), region("ring_medial", 12.0)
+    assert HandState.CLOSING in reflex.states
+    assert reflex.step(sensed(light, state=HandState.CLOSING)) is None
+    wish = reflex.step(sensed(light, hard, state=HandState.CLOSING))
+    assert wish is not None
+    assert (wish.steps[joints_of("ring")] < 0.0).all()
+    assert not wish.steps[joints_of("index")].any()
 
 
 # --- all of them

@@ -80,7 +80,7 @@ class HandToHand(Reflex):
 
     Config = HandToHandConfig
     priority = 30
-    states = frozenset({HandState.HOLDING, HandState.AVOIDING})
+    states = frozenset({HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING})
 
     config: HandToHandConfig
 
@@ -105,6 +105,8 @@ class HandToHand(Reflex):
                 steps -= config.hand_to_hand_max_steps * closing
                 why = f"{finger} gives way"
                 continue
+            if sensed.state is HandState.CLOSING:
+                continue  # each finger closes by itself, and shares nothing yet
             for region in regions:
                 state.phalanges += region.in_contact
                 joint = state.moves.get(region.name)
