@@ -63,6 +63,14 @@ def test_silence_that_begins_with_a_single_lost_answer_is_refused(settings: type
     assert settings(rate_hz=13.34, silence_s=0.15).silence_s == 0.15
 
 
+@pytest.mark.parametrize("settings", [HandSettings, HandReflexesSettings, HandLoopConfig])
+def test_a_command_that_would_be_old_before_it_is_followed_is_refused(settings: type) -> None:
+    told = r"command_stale_after_s = 0\.1: .* rate_hz = 10 .*: raise command_stale_after_s to 0\.2, or rate_hz to 20$"
+    with pytest.raises(SettingsError, match=told):
+        settings(rate_hz=10.0, command_stale_after_s=0.1)
+    assert settings(rate_hz=20.0, command_stale_after_s=0.1).rate_hz == 20.0
+
+
 @pytest.mark.parametrize("settings", [SupervisorConfig, HandReflexesSettings])
 def test_a_grip_at_which_fingers_give_way_is_refused(settings: type) -> None:
     with pytest.raises(SettingsError, match=r"grip_force_n = 5: allowed is less than max_force_n = 5"):

@@ -12,6 +12,8 @@ from acts_core.settings import rounded_up, setting, validate
 
 # So many reads have to fail before motors count as silent: one answer may be lost.
 _LEAST_READS = 2
+# For so many cycles a command has to count: one may be late.
+_LEAST_CYCLES = 2
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,10 @@ class HandLoopConfig:
         3.0, "fastest that a joint's goal moves towards the command [rad/s]", minimum=0.01, maximum=8.0
     )
     command_stale_after_s: float = setting(
-        0.5, "without a command for longer the goals stand still [s]", minimum=0.01, maximum=10.0
+        0.5,
+        "without a command for longer the goals stand still [s]; at least two periods of rate_hz",
+        minimum=0.01,
+        maximum=10.0,
     )
     silence_s: float = setting(
         0.3,
@@ -41,6 +46,13 @@ class HandLoopConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        if self.command_stale_after_s < _LEAST_CYCLES / self.rate_hz:
+            raise SettingsError(
+                f"command_stale_after_s = {self.command_stale_after_s:g}: with rate_hz = {self.rate_hz:g} the joints "
+                f"are commanded every {1.0 / self.rate_hz:.4g} s, and a command could be old before it is followed: "
+                f"raise command_stale_after_s to {rounded_up(_LEAST_CYCLES / self.rate_hz)}, or rate_hz to "
+                f"{rounded_up(_LEAST_CYCLES / self.command_stale_after_s)}"
+            )
         if self.silence_s < _LEAST_READS / self.rate_hz:
             raise SettingsError(
                 f"silence_s = {self.silence_s:g}: with rate_hz = {self.rate_hz:g} the motors are read "
