@@ -9,7 +9,6 @@ The world depends on no clock and no process: the same seed gives the same bits.
 
 from acts_sim.hand.commands import carry_out
 from acts_sim.hand.kinematics import PALM, SOLIDS, frames, rotation_of
-from acts_sim.hand.model import body_index
 from acts_sim.hand.objects import HeldObject, Piece, held_object
 from acts_sim.hand.solid_kernels import BOX, CAPSULE, CYLINDER
 from acts_sim.hand.tip import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M
@@ -36,7 +35,6 @@ __all__ = [
     "PatchTruth",
     "Piece",
     "TruthFollower",
-    "body_index",
     "carry_out",
     "frames",
     "held_object",

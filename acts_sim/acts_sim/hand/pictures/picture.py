@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
-from acts_sim.hand import HandWorld, body_index
+from acts_sim.hand import HandWorld
 
 _MAX_GEOMS = 2500
 _DOT_M = 0.0009
@@ -112,7 +112,7 @@ class HandPicture:
         world, scene = self._world, self._scene
         turn = np.eye(3).ravel()
         for patch in world.layout.patches:
-            body = body_index(world.model, patch.link)
+            body = mujoco.mj_name2id(world.model, mujoco.mjtObj.mjOBJ_BODY, patch.link)
             rotation = world.data.xmat[body].reshape(3, 3)
             points = patch.points_m().reshape(-1, 3) @ rotation.T + world.data.xpos[body]
             shares = np.clip(counts[patch.of(world.layout.taxels).ravel()] / 400.0, 0.0, 1.0)
