@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 import sys
@@ -13,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from acts_ros.processes.launcher import leave_with_parent
+from acts_tools.running.child import child
 
 START_TIMEOUT_S = 180.0
 """Longest wait until a launch works: on a busy machine that compiles the kernels first, a minute was not enough [s]."""
@@ -23,9 +22,7 @@ _STOP_TIMEOUT_S = 20.0
 
 @contextmanager
 def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a launch file of acts_bringup in a session of its own.
-
-    The launch is stopped at the end of the block, or if this process is killed.
+    """Run a launch file of acts_bringup as a `child`.
 
     Parameters
     ----------
@@ -37,21 +34,14 @@ def launched(launch_file: str, arguments: list[str], log_path: Path) -> Iterator
         File for the output of the launch.
     """
     command = [sys.executable, "-m", "acts_tools", "launch", "--own", "acts_bringup", launch_file, *arguments]
-    with log_path.open("wb") as log:
-        process = subprocess.Popen(
+    with (
+        log_path.open("wb") as log,
+        child(
             command,
+            stop_timeout_s=_STOP_TIMEOUT_S,
+            stop_signal=signal.SIGINT,
             stdout=log,
             stderr=subprocess.STDOUT,
-            start_new_session=True,
-            preexec_fn=leave_with_parent(os.getpid()),
-        )
-        try:
-            yield process
-        finally:
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-            try:
-                process.wait(_STOP_TIMEOUT_S)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
+        ) as process,
+    ):
+        yield process

@@ -18,8 +18,7 @@ from types import MappingProxyType
 from typing import Any
 
 from acts_core.errors import LaunchError
-from acts_ros.processes.launcher import leave_with_parent
-from acts_tools.running.ending import wait_or_kill
+from acts_tools.running.child import child
 from acts_tools.two_machines.conditions import Conditions, Traffic
 
 _TOOLS = {"ip": "iproute2", "mount": "mount", "nsenter": "util-linux", "unshare": "util-linux"}
@@ -91,21 +90,18 @@ class Machine:
         self, words: Sequence[str], domain_id: int, log: Path, variables: Mapping[str, str] = MappingProxyType({})
     ) -> Iterator[subprocess.Popen[bytes]]:
         """Run a program there for the length of a block, with additional environment variables and output to a file."""
-        with log.open("wb") as output:
-            process = subprocess.Popen(
+        with (
+            log.open("wb") as output,
+            child(
                 self.command(words),
+                stop_timeout_s=_STOP_TIMEOUT_S,
                 env={"ROS_LOG_DIR": str(log.parent), **self.environment(domain_id), **variables},
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
-                start_new_session=True,
-                preexec_fn=leave_with_parent(os.getpid()),
-            )
-        try:
+            ) as process,
+        ):
             yield process
-        finally:
-            process.terminate()
-            wait_or_kill(process, _STOP_TIMEOUT_S)
 
 
 @contextmanager
@@ -123,17 +119,10 @@ def two_machines() -> Iterator[TwoMachines]:
     command = [sys.executable, "-m", "acts_tools.two_machines.cable"]
     if os.geteuid() != 0:
         command = ["unshare", "--user", "--map-root-user", *command]
-    cable = subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=leave_with_parent(os.getpid()),
-    )
-    assert cable.stdin is not None
-    assert cable.stdout is not None
-    try:
+    with child(
+        command, stop_timeout_s=_STOP_TIMEOUT_S, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as cable:
+        assert cable.stdout is not None
         line = cable.stdout.readline()
         start: dict[str, Any] = json.loads(line) if line else {"error": "the process of the cable ended at once"}
         if "error" in start:
@@ -143,7 +132,3 @@ def two_machines() -> Iterator[TwoMachines]:
                 "--device /dev/net/tun`"
             )
         yield TwoMachines(cable, start["pids"])
-    finally:
-        cable.stdin.close()
-        wait_or_kill(cable, _STOP_TIMEOUT_S)
-        cable.stdout.close()

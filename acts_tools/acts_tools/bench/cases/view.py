@@ -31,6 +31,7 @@ from acts_tools.bench.rigs.graph import Graph
 from acts_tools.bench.rigs.processes import (
     NAMESPACE,
     START_TIMEOUT_S,
+    Running,
     check_alive,
     command_line,
     python_module,
@@ -179,11 +180,9 @@ def _of_clients(key: str, label: str, watched: Watched) -> list[Figure]:
     ]
 
 
-@contextmanager
-def _server(workbench: Workbench, port: int) -> Iterator[subprocess.Popen[bytes]]:
+def _server(workbench: Workbench, port: int) -> Running:
     words = ["--set", f"view.port={port}", "--set", f"view.skins={NAMESPACE}"]
-    with command_line(workbench.folder, "view", [str(executable("acts_view", "view", os.environ)), *words]) as process:
-        yield process
+    return command_line(workbench.folder, "view", [str(executable("acts_view", "view", os.environ)), *words])
 
 
 @contextmanager

@@ -11,14 +11,13 @@ import select
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from acts_core.errors import LaunchError
-from acts_ros.processes.launcher import leave_with_parent
 from acts_ros.processes.packages import executable
-from acts_tools.running.ending import wait_or_kill
+from acts_tools.running.child import child
 
 NAMESPACE = "/plate"
 M = 55
@@ -46,6 +45,20 @@ class Board:
     epoch_monotonic_ns: int
 
 
+Running = AbstractContextManager[subprocess.Popen[bytes]]
+"""A program that runs for the length of a block."""
+
+
+@contextmanager
+def command_line(folder: Path, name: str, command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
+    """Run any program, with a pipe for its standard output; its errors go to ``folder/NAME.log``."""
+    with (
+        (folder / f"{name}.log").open("wb") as log,
+        child(command, stop_timeout_s=_STOP_TIMEOUT_S, stdout=subprocess.PIPE, stderr=log) as process,
+    ):
+        yield process
+
+
 @contextmanager
 def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
     """Run a virtual board, by default with M = 55 at 1 kHz.
@@ -65,7 +78,7 @@ def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
     link = folder / "board"
     words = ["--link", str(link), "--print-status", "--m", str(M), *options]
     command = [str(executable("acts_firmware", "virtual_board", os.environ)), *words]
-    with _running(command, folder / "virtual_board.log") as process:
+    with command_line(folder, "virtual_board", command) as process:
         assert process.stdout is not None
         ready, _, _ = select.select([process.stdout], [], [], START_TIMEOUT_S)
         line = process.stdout.readline() if ready else b""
@@ -75,8 +88,7 @@ def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
         yield Board(link, process, start["epoch_realtime_ns"], start["epoch_monotonic_ns"])
 
 
-@contextmanager
-def driver(folder: Path, link: Path, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+def driver(folder: Path, link: Path, *parameters: str) -> Running:
     """Run the driver node on a port, in `NAMESPACE`; its log goes to ``folder/driver.log``.
 
     Parameters
@@ -90,58 +102,24 @@ def driver(folder: Path, link: Path, *parameters: str) -> Iterator[subprocess.Po
     """
     command = [str(executable("acts_driver", "driver", os.environ)), "--ros-args", "-r", f"__ns:={NAMESPACE}"]
     command += [word for parameter in (f"port:={link}", *parameters) for word in ("-p", parameter)]
-    with _running(command, folder / "driver.log") as process:
-        yield process
+    return command_line(folder, "driver", command)
 
 
-@contextmanager
-def command_line(folder: Path, name: str, command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run any program; its errors go to ``folder/NAME.log``."""
-    with _running(command, folder / f"{name}.log") as process:
-        yield process
+def python_module(folder: Path, module: str, arguments: Sequence[str]) -> Running:
+    """Run a Python module; its errors go to ``folder/MODULE.log``."""
+    return command_line(folder, module, [sys.executable, "-m", module, *arguments])
 
 
-@contextmanager
-def python_module(folder: Path, module: str, arguments: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a Python module with a pipe for its standard output; its errors go to a log in `folder`."""
-    command = [sys.executable, "-m", module, *arguments]
-    with _running(command, folder / f"{module}.log") as process:
-        yield process
-
-
-@contextmanager
-def tactile(folder: Path, link: Path, namespace: str, *options: str) -> Iterator[subprocess.Popen[bytes]]:
+def tactile(folder: Path, link: Path, namespace: str, *options: str) -> Running:
     """Run driver and reconstruction of one skin in one process; its log goes to ``folder/tactile.log``."""
     command = [str(executable("acts_skins", "tactile", os.environ)), "--set", f"driver.port={link}", *options]
-    with _running([*command, "--ros-args", "-r", f"__ns:={namespace}"], folder / "tactile.log") as process:
-        yield process
+    return command_line(folder, "tactile", [*command, "--ros-args", "-r", f"__ns:={namespace}"])
 
 
 def check_alive(process: subprocess.Popen[bytes], log: Path, name: str = "") -> None:
     """Raise `LaunchError` if a process has ended, with its name, or that of its log, and the end of its log."""
     if process.poll() is not None:
         raise LaunchError(f"{name or log.stem} ended early with code {process.returncode}: {_log_end(log)}")
-
-
-@contextmanager
-def _running(command: Sequence[str], log_path: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """A child process that is always stopped at the end of the block."""
-    with log_path.open("wb") as log:
-        process = subprocess.Popen(
-            command,
-            stdout=subprocess.PIPE,
-            stderr=log,
-            # Only this process gets Ctrl-C; it stops its children in order.
-            start_new_session=True,
-            preexec_fn=leave_with_parent(os.getpid()),
-        )
-    assert process.stdout is not None
-    try:
-        yield process
-    finally:
-        process.terminate()
-        wait_or_kill(process, _STOP_TIMEOUT_S)
-        process.stdout.close()
 
 
 def _log_end(path: Path) -> str:
