@@ -65,38 +65,29 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     """
     require_rosbags()
     # Imported here, because they are slow to import and other commands do not need them.
-    import rclpy
-    from rclpy.signals import SignalHandlerOptions
-
-    from acts_ros import middleware
     from acts_ros.bags.reading import open_bag
     from acts_tools.bags.player import Player
+    from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
-    with open_bag(path) as bag, StopFlag() as stop:
+    with open_bag(path) as bag, StopFlag() as stop, command_node("acts_player") as (node, _):
         if bag.note is not None:
             _say(bag.note)
-        middleware.init(signal_handler_options=SignalHandlerOptions.NO)
-        node = rclpy.create_node("acts_player", start_parameter_services=False, enable_rosout=False)
+        player = Player(node, bag, topics, _say)
+        started_s = time.monotonic() + delay_s
         try:
-            player = Player(node, bag, topics, _say)
-            started_s = time.monotonic() + delay_s
-            try:
-                going = stop.sleep_until(started_s)
-                while going:
-                    before = player.report.published
-                    # A bag without messages also ends a loop.
-                    going = player.play(rate, stop.sleep_until) and loop and player.report.published > before
-            finally:
-                player.finish()
-                report = player.report
-                _say(
-                    f"{counted(report.published, 'message')} in {max(0.0, time.monotonic() - started_s):.1f} s, "
-                    f"at most {report.worst_lateness_s * 1e3:.1f} ms late"
-                )
+            going = stop.sleep_until(started_s)
+            while going:
+                before = player.report.published
+                # A bag without messages also ends a loop.
+                going = player.play(rate, stop.sleep_until) and loop and player.report.published > before
         finally:
-            node.destroy_node()
-            rclpy.try_shutdown()
+            player.finish()
+            report = player.report
+            _say(
+                f"{counted(report.published, 'message')} in {max(0.0, time.monotonic() - started_s):.1f} s, "
+                f"at most {report.worst_lateness_s * 1e3:.1f} ms late"
+            )
 
 
 def _say(text: str) -> None:

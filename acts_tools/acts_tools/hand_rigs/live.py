@@ -11,16 +11,15 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 import rclpy
-from rclpy.signals import SignalHandlerOptions
 
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import HandStatus
-from acts_ros import middleware
 from acts_sim.dynamixel import ControlClient
 from acts_tools.hand_rigs.collector import HandCollector
 from acts_tools.hand_rigs.recording import HandRecording
 from acts_tools.process_load import LoadMeter
 from acts_tools.running.launched import START_TIMEOUT_S, launched
+from acts_tools.running.node import ros
 from acts_tools.running.stopping import StopFlag
 from acts_tools.running.watcher import Watcher
 
@@ -137,8 +136,7 @@ def live_hand(
     """
     words = [f"{name}:={value}" for name, value in {**arguments, "run_dir": str(run_dir)}.items()]
     # The previous hand may still be ending.
-    with launched("hand_reflexes.launch.xml", words, log_path) as launch:
-        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    with launched("hand_reflexes.launch.xml", words, log_path) as launch, ros():
         collector = HandCollector(NAMESPACE, run_dir, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: line(collector))
         try:
@@ -152,7 +150,6 @@ def live_hand(
             watcher.end()
         finally:
             collector.destroy_node()
-            rclpy.try_shutdown()
 
 
 def _control(path: Path) -> ControlClient:

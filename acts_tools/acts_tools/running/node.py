@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The ROS node of a command, from the initialisation of ROS to its end."""
+"""ROS in a command, from its initialisation to its end, and the node of one that has a single one."""
 
 from __future__ import annotations
 
@@ -18,17 +18,8 @@ from acts_ros.executor import make_executor
 
 
 @contextmanager
-def command_node(name: str, make: Callable[[], Executor] = make_executor) -> Iterator[tuple[Node, Executor]]:
-    """A node without parameters and log topic, and the executor that calls it back, for the length of a block.
-
-    Signals are left to the command.
-
-    Parameters
-    ----------
-    name : str
-        Of the node.
-    make : callable
-        Makes the executor; by default the one for 1 kHz.
+def ros() -> Iterator[None]:
+    """ROS for the length of a block. Signals are left to the command.
 
     Raises
     ------
@@ -36,12 +27,29 @@ def command_node(name: str, make: Callable[[], Executor] = make_executor) -> Ite
         As of `acts_ros.middleware.init`.
     """
     middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = rclpy.create_node(name, start_parameter_services=False, enable_rosout=False)
-    executor = make()
-    executor.add_node(node)
     try:
-        yield node, executor
+        yield
     finally:
-        executor.shutdown()
-        node.destroy_node()
         rclpy.try_shutdown()
+
+
+@contextmanager
+def command_node(name: str, make: Callable[[], Executor] = make_executor) -> Iterator[tuple[Node, Executor]]:
+    """A node without parameters and log topic, and the executor that calls it back, within `ros`.
+
+    Parameters
+    ----------
+    name : str
+        Of the node.
+    make : callable
+        Makes the executor; by default the one for 1 kHz.
+    """
+    with ros():
+        node = rclpy.create_node(name, start_parameter_services=False, enable_rosout=False)
+        executor = make()
+        executor.add_node(node)
+        try:
+            yield node, executor
+        finally:
+            executor.shutdown()
+            node.destroy_node()

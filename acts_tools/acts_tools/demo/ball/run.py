@@ -8,15 +8,11 @@ from __future__ import annotations
 import socket
 from pathlib import Path
 
-import rclpy
-from rclpy.signals import SignalHandlerOptions
-
 from acts_control.ball import Trajectory, TrajectoryConfig
 from acts_core.array import ArrayGeometry
 from acts_core.errors import LaunchError
 from acts_core.runtime import is_loopback
 from acts_msgs.msg import BalanceStatus
-from acts_ros import middleware
 from acts_tools.demo.ball.collector import Collector
 from acts_tools.demo.ball.picture import draw
 from acts_tools.demo.ball.recording import Recording
@@ -28,6 +24,7 @@ from acts_tools.process_load import LoadMeter
 from acts_tools.ros_domain import use_free_domain
 from acts_tools.run_folder import run_folder
 from acts_tools.running.launched import START_TIMEOUT_S, launched
+from acts_tools.running.node import ros
 from acts_tools.running.stopping import StopFlag
 from acts_tools.running.watcher import Watcher
 
@@ -114,8 +111,7 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
     LaunchError
         When the launch ended, or the control loop was not closed in time.
     """
-    with launched("ball_balancing.launch.xml", arguments, log_path) as launch:
-        middleware.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    with launched("ball_balancing.launch.xml", arguments, log_path) as launch, ros():
         collector = Collector(NAMESPACE, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: _line(collector, duration_s))
         try:
@@ -128,7 +124,6 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
             watcher.end()
         finally:
             collector.destroy_node()
-            rclpy.try_shutdown()
 
 
 def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int = 0) -> int:
