@@ -10,6 +10,7 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -169,57 +170,33 @@ def _numbers_of(told: list[tuple[int, dict[str, float]]]) -> tuple[list[tuple[in
     return numbers, notes
 
 
+# The columns of a contact and of each one as a recovered image has them, and as messages do.
+_CONTACT, _EACH = attrgetter(*CONTACT_COLUMNS), attrgetter(*CONTACTS_COLUMNS)
+_CONTACT_MESSAGE = attrgetter(
+    "in_contact", "centre_of_pressure.x", "centre_of_pressure.y", "force", "peak", "area", "spread"
+)
+_EACH_MESSAGE = attrgetter(
+    "number", "position.x", "position.y", "velocity.x", "velocity.y", "force", "peak", "area", "spread"
+)
+
+
 def contact_found(found: FoundContact) -> Values:
     """Of a recovered image, with `CONTACT_COLUMNS`."""
-    return np.array(
-        [found.in_contact, found.x_m, found.y_m, found.force_n, found.peak_counts, found.area_m2, found.spread_m],
-        dtype=np.float64,
-    )
+    return np.array(_CONTACT(found), dtype=np.float64)
 
 
 def contacts_found(blobs: Sequence[TrackedBlob]) -> Values:
     """Of a recovered image: an array [shape=(n, 9)] with `CONTACTS_COLUMNS`."""
-    rows = [
-        (
-            blob.number,
-            blob.x_m,
-            blob.y_m,
-            blob.vx_m_s,
-            blob.vy_m_s,
-            blob.force_n,
-            blob.peak_counts,
-            blob.area_m2,
-            blob.spread_m,
-        )
-        for blob in blobs
-    ]
-    return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
+    return np.array([_EACH(blob) for blob in blobs], dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
 
 
 def contact_of_message(message: Contact) -> Values:
     """A recorded one, with `CONTACT_COLUMNS`."""
-    centre = message.centre_of_pressure
-    return np.array(
-        [message.in_contact, centre.x, centre.y, message.force, message.peak, message.area, message.spread],
-        dtype=np.float64,
-    )
+    return np.array(_CONTACT_MESSAGE(message), dtype=np.float64)
 
 
 def _contacts_of_message(message: Contacts) -> Values:
-    rows = [
-        (
-            one.number,
-            one.position.x,
-            one.position.y,
-            one.velocity.x,
-            one.velocity.y,
-            one.force,
-            one.peak,
-            one.area,
-            one.spread,
-        )
-        for one in message.contacts
-    ]
+    rows = [_EACH_MESSAGE(one) for one in message.contacts]
     return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
 
 
