@@ -28,15 +28,19 @@ def add_scene_arguments(parser: argparse.ArgumentParser, seeds: int, what: str) 
 def add_seeds(parser: argparse.ArgumentParser, seeds: int, what: str) -> None:
     """Add what all have that repeat something random: how often, from which seed on, and a file of the results."""
     parser.add_argument("--seeds", type=at_least_one, default=seeds, metavar="N", help=f"{what} (default: %(default)s)")
-    parser.add_argument(
-        "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
-    )
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    add_seed_and_json(parser)
 
 
 def add_seed_and_json(parser: argparse.ArgumentParser) -> None:
-    """Add what those have that repeat nothing: the seed, and a file of the results."""
-    parser.add_argument("--seed", type=random_seed, default=1, metavar="X", help="random seed (default: %(default)s)")
+    """Add the seed, and a file of the results."""
+    parser.add_argument(
+        "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
+    )
+    add_json(parser)
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    """Add a file of the results."""
     parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
 
 

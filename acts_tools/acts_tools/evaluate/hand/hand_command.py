@@ -19,6 +19,7 @@ from acts_core.settings import SettingValue
 from acts_core.words import counted
 from acts_tools.arguments import given_settings, random_seed, real, whole
 from acts_tools.evaluate import report
+from acts_tools.evaluate.options import add_json
 from acts_tools.evaluate.statistics import wilson
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def add_parser(commands: Any) -> None:
         action="store_true",
         help="use all real interfaces: each run launches the simulated hand, its board and the nodes, in real time",
     )
-    parser.add_argument("--json", type=Path, metavar="OUT", help="write the results here, too")
+    add_json(parser)
     parser.set_defaults(evaluate=_run)
 
 

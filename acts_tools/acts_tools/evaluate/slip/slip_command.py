@@ -27,6 +27,7 @@ from acts_core.words import counted
 from acts_recon.slip import SMALLEST_SIDE, SlipConfig, SlipDetector
 from acts_tools.arguments import add_settings, real
 from acts_tools.evaluate import report
+from acts_tools.evaluate.options import add_json
 from acts_tools.evaluate.picture import diagrams
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture
@@ -84,7 +85,7 @@ def add_parser(commands: Any) -> None:
         help="noise of a taxel (default: %(default)s)",
     )
     add_settings(parser, SlipConfig)
-    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    add_json(parser)
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw paths and detected slip")
     parser.set_defaults(evaluate=_run)
 

@@ -14,7 +14,6 @@ import argparse
 import math
 from collections.abc import Callable
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,6 +27,7 @@ from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
 from acts_tools.arguments import at_least_one, given_settings, real, simulated_taxels
 from acts_tools.evaluate import report
+from acts_tools.evaluate.options import add_json
 from acts_tools.firmware.board_sampler import BoardSampler
 
 _NOTICED_M = 0.0002
@@ -71,7 +71,7 @@ def add_parser(commands: Any) -> None:
         metavar="NAME=VALUE",
         help="set a limit of slip (docs/reference.md, reconstruction: slip_...)",
     )
-    parser.add_argument("--json", type=Path, metavar="OUT", help="also write the results to a JSON file")
+    add_json(parser)
     parser.set_defaults(evaluate=_run)
 
 
