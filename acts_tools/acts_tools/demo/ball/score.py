@@ -130,8 +130,8 @@ def table(results: dict[str, Any]) -> str:
     def row(name: str, value: Any, unit: str, wanted: str = "") -> None:
         rows.append((name, "-" if value is None else f"{value} {unit}".strip(), wanted))
 
-    row("contacts received by the control node", results["contact_rate_hz"], "Hz", ">= 995")
-    row("frames lost, board to driver", results["frames_lost"], "", "0")
+    row("contacts received by the control node", results["contact_rate_hz"], "Hz", f">= {LIMITS['contact_rate_hz']:g}")
+    row("frames lost, board to driver", results["frames_lost"], "", f"{LIMITS['frames_lost']:g}")
     row("contacts lost, driver to control node", results["contacts_lost"], "")
     latency = results["latency_ms"]
     row("latency, last measurement to the control node's process, median", latency["median"], "ms")
@@ -140,9 +140,9 @@ def table(results: dict[str, Any]) -> str:
     age = results["touch_age_ms"]
     row("newest touch when a control step used it, median", age["median"], "ms")
     row("    99 % of all within", age["p99"], "ms")
-    row("ball held at the centre, rms error", results["rms_mm"]["hold"], "mm", "<= 3")
-    for letter in LETTERS:
-        row(f"{letter} traced, rms error", results["rms_mm"][letter], "mm", "<= 5")
+    for name, value in results["rms_mm"].items():
+        what = "ball held at the centre" if name == "hold" else f"{name} traced"
+        row(f"{what}, rms error", value, "mm", f"<= {LIMITS[f'rms_mm.{name}']:g}")
     for name, value in results["cpu_percent"].items():
         row(f"CPU, {name}", value, "% of one core")
     width = max(len(name) for name, _, _ in rows)
