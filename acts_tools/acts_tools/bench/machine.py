@@ -33,29 +33,28 @@ class BusyMeter:
 
     def __init__(self) -> None:
         self._begin_s = time.monotonic()
-        self._busy_s = _machine_busy_s()
+        self._busy_s = self._now_s()
 
     def percent(self) -> float:
         """Load of the machine [% of one core]. A call takes some milliseconds."""
-        return (_machine_busy_s() - self._busy_s) / max(time.monotonic() - self._begin_s, 1e-9) * 100
+        return (self._now_s() - self._busy_s) / max(time.monotonic() - self._begin_s, 1e-9) * 100
+
+    def _now_s(self) -> float:
+        return _machine_busy_s()
 
 
-class OthersMeter:
+class OthersMeter(BusyMeter):
     """CPU time of all processes but this one and its children, since construction.
 
-    As `BusyMeter` measures it; time that a hypervisor gave to other machines is included.
+    Time that a hypervisor gave to other machines is included.
     """
-
-    def __init__(self) -> None:
-        self._begin_s = time.monotonic()
-        self._machine_s = _machine_busy_s()
-        self._own_s = _own_s()
 
     def percent(self) -> float:
         """Load by others [% of one core]. Children are excluded once they have ended and were waited for."""
-        elapsed_s = max(time.monotonic() - self._begin_s, 1e-9)
-        others_s = _machine_busy_s() - self._machine_s - (_own_s() - self._own_s)
-        return max(0.0, others_s / elapsed_s * 100)
+        return max(0.0, super().percent())
+
+    def _now_s(self) -> float:
+        return super()._now_s() - _own_s()
 
 
 def _machine_busy_s() -> float:
