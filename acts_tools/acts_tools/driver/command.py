@@ -8,12 +8,12 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import BoardError, SettingsError
+from acts_core.files import path_of
 from acts_core.names import full_name
-from acts_core.settings import checked, default_of, describe, is_given
+from acts_core.settings import from_text, is_given
 from acts_core.skin import LAYOUTS, layout_path
 
 if TYPE_CHECKING:
@@ -107,21 +107,14 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
             raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}")
         if name in values:
             raise SettingsError(f"{word}: {name} is given twice; give it once")
-        default = default_of(BoardParameters, name)
-        kind: Any = type(default)
-        try:
-            value = _ABSOLUTE[name](text) if name in _ABSOLUTE else kind(text)
-        except ValueError:
-            raise SettingsError(
-                f"{word}: needed is a {'whole number' if kind is int else 'number'} for {name}"
-            ) from None
+        text = _ABSOLUTE[name](text) if name in _ABSOLUTE else text
         # ROS would refuse a number out of range before the driver sees it, without saying what the parameter is.
-        values[name] = checked(name, value, default, describe(BoardParameters)[name])
+        values[name] = from_text(BoardParameters, name, text)
     return values
 
 
 def _absolute_model(path: str) -> str:
-    return str(Path(path).expanduser().absolute()) if is_given(path) else path
+    return str(path_of(path, error=SettingsError).absolute()) if is_given(path) else path
 
 
 def _absolute_layout(name_or_path: str) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.files import read_npz
+from acts_core.files import path_of, read_npz
 from acts_tools.figures.sheet import PUBLISHED, Curve
 
 VARIABLE = "ACTS_PAPER_DATA"
@@ -112,7 +112,7 @@ def published_data(folder: Path | None) -> PublishedData | None:
         named = os.environ.get(VARIABLE)
         if not named:
             return None
-        folder = Path(named).expanduser()
+        folder = path_of(named, error=RecordingError)
     return PublishedData(folder)
 
 

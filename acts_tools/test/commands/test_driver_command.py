@@ -86,10 +86,13 @@ def test_parameters_have_the_types_they_are_declared_with() -> None:
         ("rate_cap_hz=nan", "rate_cap_hz = nan: allowed is a finite number, 0 to 1e+06"),
         (f"seed={2**63}", f"seed = {2**63}: allowed is -1 to {2**63 - 1}"),
         ("scheme=foo", "scheme = 'foo': allowed is one of empty, adaptive,"),
+        ("m=many", "m = 'many': allowed is a value of type whole number, 0 to 4096"),
+        ("m=1.5", "m = 1.5: allowed is a value of type whole number, 0 to 4096"),
+        ("model=~no_such_person/a.npz", "~no_such_person/a.npz: Could not determine home directory"),
     ):
         with pytest.raises(SettingsError, match=re.escape(told)):
             parameters_of([word])
-    for word in ("m", "m=many", "port=auto"):
+    for word in ("m", "port=auto"):
         with pytest.raises(SettingsError, match="needed is"):
             parameters_of([word])
     with pytest.raises(SettingsError, match="m=60: m is given twice"):

@@ -118,6 +118,14 @@ def test_figures_of_one_number_have_a_name_together() -> None:
             figures_named([word])
 
 
+def test_a_folder_of_nobody_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ACTS_PAPER_DATA", "~no_such_person/data")
+    assert main(["figures", "S9", "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.startswith("error: ~no_such_person/data: Could not determine home directory")
+
+
 def test_a_figure_that_is_named_twice_is_drawn_once() -> None:
     assert [figure.name for figure in figures_named(["6b", "6A-C", "6B"])] == ["6B", "6A", "6C"]
 
