@@ -182,12 +182,12 @@ def _run(arguments: argparse.Namespace) -> int:
         found = _watch_all(recorded, number, boxes, rate_hz, config, arguments)
         watched.append((name, found))
         entry = _entry(name, found)
-        results.add(entry)
+        # Written with the total: a recording takes less time than a file.
+        results.entries.append(entry)
         if len(recorded.start) <= 20:
             print(_line(name, entry))
     total = _entry("all", [one for _, found in watched for one in found])
-    print(_line("all", total))
-    results.add(total)
+    results.add(total, _line("all", total))
     if arguments.picture:
         _draw(arguments.picture, watched)
     if not total["pressed"]:
