@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass
-from typing import Any
 
 from acts_core.errors import ActsError
 from acts_tools.arguments import whole
@@ -32,9 +31,9 @@ class SkinsOptions:
         Whether boards, skins and subscriber run under SCHED_FIFO; the load never does.
     """
 
-    skins: int = 1
-    load: int = 0
-    realtime: bool = False
+    skins: int
+    load: int
+    realtime: bool
 
     @property
     def names(self) -> list[str]:
@@ -62,25 +61,17 @@ def is_chosen(arguments: argparse.Namespace) -> bool:
     ActsError
         When it also selects another measurement, or has options of this one without selecting it.
     """
-    names = list(dict.fromkeys(arguments.names))
-    if NAME in names:
-        others = [name for name in names if name != NAME]
+    if NAME in arguments.names:
+        others = [name for name in dict.fromkeys(arguments.names) if name != NAME]
         if others:
             raise ActsError(f"{NAME} is measured by itself; leave out {', '.join(others)}")
         return True
-    given = [f"--{name}" for name, value in _values(arguments).items() if value is not None]
-    if given:
-        raise ActsError(f"{given[0]} is an option of `acts bench {NAME}` only")
+    for name in ("skins", "load", "realtime"):
+        if getattr(arguments, name) is not None:
+            raise ActsError(f"--{name} is an option of `acts bench {NAME}` only")
     return False
 
 
 def options_from(arguments: argparse.Namespace) -> SkinsOptions:
     """Options from a command line."""
-    given = {name: value for name, value in _values(arguments).items() if value is not None}
-    if "realtime" in given:
-        given["realtime"] = given["realtime"] == "on"
-    return SkinsOptions(**given)
-
-
-def _values(arguments: argparse.Namespace) -> dict[str, Any]:
-    return {name: getattr(arguments, name) for name in ("skins", "load", "realtime")}
+    return SkinsOptions(arguments.skins or 1, arguments.load or 0, arguments.realtime == "on")
