@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Folders for output files, checks that these can be written, and reports as JSON."""
+"""Folders for output files, checks that these can be written, pictures, and reports as JSON."""
 
 from __future__ import annotations
 
@@ -85,6 +85,18 @@ def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
     require_writable(path, makes_folder=makes_folder)
     if path is not None and path.suffix.lower() not in _PICTURES:
         raise RecordingError(f"{path}: no name of a picture; allowed are names that end in {', '.join(_PICTURES)}")
+
+
+def save_picture(figure: Any, path: Path, **options: Any) -> None:
+    """Write a figure of matplotlib as a whole or not at all; its folder is made, `options` are those of ``savefig``.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
+    with write_whole(path, error=RecordingError, makes_folder=True) as file:
+        figure.savefig(file, format=path.suffix[1:].lower(), **options)
 
 
 def write_json(path: Path | None, report: Mapping[str, Any]) -> None:

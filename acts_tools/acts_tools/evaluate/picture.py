@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from acts_core.errors import RecordingError
+from acts_tools.output_file import save_picture
 
 
 @contextmanager
@@ -31,8 +31,6 @@ def diagrams(path: Path, rows: int, columns: int, *, size_inch: tuple[float, flo
     figure, axes = plt.subplots(rows, columns, figsize=size_inch, layout="constrained", squeeze=False)
     try:
         yield list(axes.flat)
-        figure.savefig(path, dpi=dpi)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+        save_picture(figure, path, dpi=dpi)
     finally:
         plt.close(figure)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_driver.selftest import Finding, Level, listed
+from acts_tools.output_file import save_picture
 from acts_tools.selftest.result import SelfTest
 
 mpl.use("Agg")
@@ -26,7 +27,13 @@ _LINE_CHARACTERS = 56
 
 
 def draw(test: SelfTest, path: Path) -> None:
-    """Draw a self-test to a file."""
+    """Draw a self-test to a file.
+
+    Raises
+    ------
+    RecordingError
+        When it cannot be written.
+    """
     figure = plt.figure(figsize=(15, 9.2), layout="constrained")
     grid = figure.add_gridspec(2, 3, height_ratios=[1.25, 1], width_ratios=[1, 1, 1.3])
     figure.suptitle(f"Self-test of {test.board}: {test.verdict}", fontsize=14, color=_COLOURS[test.level])
@@ -46,7 +53,7 @@ def draw(test: SelfTest, path: Path) -> None:
     _draw_lines(figure.add_subplot(grid[1, 0]), test)
     _draw_delay(figure.add_subplot(grid[1, 1]), test)
     _draw_findings(figure.add_subplot(grid[1, 2]), test.findings)
-    figure.savefig(path, dpi=100)
+    save_picture(figure, path, dpi=100)
     plt.close(figure)
 
 

@@ -102,6 +102,19 @@ def test_a_disk_that_is_full_leaves_the_results_so_far(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["out.json"]
 
 
+def test_a_disk_that_is_full_leaves_the_picture_before(tmp_path: Path) -> None:
+    code = (
+        "import resource\nfrom pathlib import Path\nfrom acts_tools.evaluate.picture import diagrams\n"
+        "with diagrams(Path('out.png'), 1, 1, size_inch=(6, 4), dpi=100):\n"
+        "    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+    )
+    (tmp_path / "out.png").write_text("before")
+    ended = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "RecordingError: out.png: cannot be written (File too large)" in ended.stderr
+    assert (tmp_path / "out.png").read_text() == "before"
+    assert [path.name for path in tmp_path.iterdir()] == ["out.png"]
+
+
 def test_results_are_in_the_file_as_soon_as_they_are_there(tmp_path: Path) -> None:
     path = tmp_path / "out.json"
     path.write_text("older")

@@ -14,6 +14,7 @@ import numpy as np
 from acts_core.array import ArrayGeometry
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.demo.ball.score import LETTERS
+from acts_tools.output_file import save_picture
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
@@ -52,8 +53,7 @@ def draw(recording: Recording, results: dict[str, Any], geometry: ArrayGeometry,
         below = figure.add_subplot(grid[3, :])
         below.axis("off")
         below.legend(handles=tilt.get_lines()[:_TILTS], loc="center", ncol=_TILTS, fontsize=9)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=110)
+    save_picture(figure, path, dpi=110)
     plt.close(figure)
 
 

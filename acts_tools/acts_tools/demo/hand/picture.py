@@ -23,6 +23,7 @@ from acts_sim.hand import HandWorld, held_object
 from acts_sim.hand.pictures import HandPicture, draw_hand
 from acts_tools.demo.hand.act import Act, Moment
 from acts_tools.hand_rigs.recording import column, patch_column
+from acts_tools.output_file import save_picture
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
@@ -75,8 +76,7 @@ def draw(acts: list[Act], path: Path) -> None:
         axes[2].set_xlabel("time since the grasp began [s]")
         if k == 0:
             _legend(figure.add_subplot(grid[5, :]), axes, 3 * len(acts))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    save_picture(figure, path, dpi=100)
     plt.close(figure)
 
 

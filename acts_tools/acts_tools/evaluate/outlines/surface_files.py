@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from acts_core.errors import RecordingError
 from acts_recon.outlines import Outline, surface_of, write_ply
+from acts_tools.output_file import save_picture
 
 
 def write_surfaces(folder: Path, name: str, outlines: Sequence[Outline]) -> None:
@@ -25,12 +25,8 @@ def write_surfaces(folder: Path, name: str, outlines: Sequence[Outline]) -> None
     mine = [outline for outline in outlines if outline.number == most]
     if len(mine) < 2:
         return
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        write_ply(surface_of(mine), folder / f"{name}.ply")
-        draw_surface(mine, folder / f"{name}.png")
-    except OSError as error:
-        raise RecordingError(f"{folder}: cannot be written ({error.strerror})") from error
+    draw_surface(mine, folder / f"{name}.png")
+    write_ply(surface_of(mine), folder / f"{name}.ply")
 
 
 def draw_surface(outlines: Sequence[Outline], path: Path) -> None:
@@ -57,4 +53,4 @@ def draw_surface(outlines: Sequence[Outline], path: Path) -> None:
     axes.set_zlabel("time [ms]")
     # The label of z is cut off otherwise.
     axes.set_box_aspect(None, zoom=0.85)
-    figure.savefig(path, dpi=120)
+    save_picture(figure, path, dpi=120)

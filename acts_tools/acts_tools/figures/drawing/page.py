@@ -13,7 +13,6 @@ from typing import Any
 
 import matplotlib as mpl
 
-from acts_core.errors import RecordingError
 from acts_tools.figures.drawing.diagrams import draw_panel
 from acts_tools.figures.drawing.images import draw_scales
 from acts_tools.figures.drawing.legends import draw_legends
@@ -21,6 +20,7 @@ from acts_tools.figures.drawing.over_time import draw_time_scale, scale_of
 from acts_tools.figures.drawing.style import STYLE, Looks
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.sheet import Panel
+from acts_tools.output_file import save_picture
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt
@@ -59,9 +59,7 @@ def draw(path: Path, figure: Figure, panels: Sequence[Panel], command: str, note
             lines = [line for note in notes for line in textwrap.wrap(note, int(width * _LETTERS_AN_INCH))]
             picture.set_size_inches(width, height + _NOTE_INCH * (1 + len(lines)))
             picture.supxlabel("\n".join([*lines, command]), fontsize=6, color="0.35")
-            picture.savefig(path, metadata={"Title": f"Fig. {figure.name}", "Description": command})
-        except OSError as error:
-            raise RecordingError(f"{path}: cannot be written ({error.strerror})") from error
+            save_picture(picture, path, metadata={"Title": f"Fig. {figure.name}", "Description": command})
         finally:
             plt.close(picture)
 
