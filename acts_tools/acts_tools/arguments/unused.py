@@ -31,5 +31,5 @@ def refuse_unused(arguments: argparse.Namespace, why: str, *names: str) -> None:
         value = getattr(arguments, name)
         if value != arguments.default_of(name):
             option = f"--{name.replace('_', '-')}"
-            given = "" if value is True else f" {value}"
-            raise SettingsError(f"{option}{given} has no effect {why}; leave it out")
+            given = [] if value is True else value if isinstance(value, list) else [value]
+            raise SettingsError(f"{' '.join([option, *map(str, given)])} has no effect {why}; leave it out")

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("view --size 16 16", "--size [16, 16] has no effect without --board; leave it out"),
+        ("view --size 16 16", "--size 16 16 has no effect without --board; leave it out"),
         ("view --protocol raster_ascii", "--protocol raster_ascii has no effect without --board"),
         ("view --bag x --baud 9600", "--baud 9600 has no effect without --board"),
         ("view --layout arm", "--layout arm has no effect without --bag, --npz or --board"),
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.slow
         ("selftest --sim --baud 9600", "--baud 9600 has no effect with --sim"),
         ("selftest /dev/x --sim", "/dev/x: with --sim the board is a virtual one"),
         ("selftest --no-touch --touch-s 4", "--touch-s 4.0 has no effect with --no-touch"),
-        ("evaluate gait --frames x --rate 8", "--rate [8.0] has no effect on recorded insoles"),
+        ("evaluate gait --frames x --rate 8 30", "--rate 8.0 30.0 has no effect on recorded insoles"),
         ("evaluate gait --width-m 0.1", "--width-m 0.1 has no effect without --frames"),
         ("evaluate recovery --presses 3 --peaks", "--peaks has no effect with --presses"),
         ("train -o {out} --frames x --presses 4", "--presses 4 has no effect with --frames"),
