@@ -133,11 +133,15 @@ class RecentSamples:
 
     def untouched_s(self, x_m: float, y_m: float, patch: int, first_s: float, last_s: float) -> Array:
         """When the taxels around a place were measured and not pressed, between two times [s]."""
+        geometry = self._geometry
+        # So many taxels along the rows as along the columns, however far these are apart.
+        square = geometry.pitch_m / geometry.pitch_y_m
         found = []
         for end_s, time_s, taxel, counts in self._frames:
             if end_s < first_s:
                 continue
-            around = self._lies_near(taxel, x_m, y_m, _AROUND_TAXELS * self._geometry.pitch_m, patch)
+            away_m = np.hypot(self._x_m[taxel] - x_m, square * (self._y_m[taxel] - y_m))
+            around = (away_m <= _AROUND_TAXELS * geometry.pitch_m) & (self._patch_of[taxel] == patch)
             free = around & (counts <= self._touch_counts) & (time_s > first_s) & (time_s < last_s)
             found.append(time_s[free])
         return np.concatenate(found) if found else np.zeros(0)

@@ -246,6 +246,16 @@ def test_a_touch_is_followed_back_where_a_force_response_is_flat() -> None:
     assert np.isfinite(followed).all()
 
 
+@pytest.mark.parametrize(("pitch_m", "row_pitch_m"), [(0.005, 0.005), (0.010, 0.002), (0.002, 0.010)])
+def test_taxels_around_a_place_are_as_many_whatever_their_pitches(pitch_m: float, row_pitch_m: float) -> None:
+    geometry = ArrayGeometry(12, 12, pitch_m, row_pitch_m)
+    samples = RecentSamples(geometry, FLAT, 60.0, 1.5, 1.0)
+    untouched = np.zeros((12, 12), dtype=np.float32)
+    samples.add(100.0, 1e-3, untouched, untouched)
+    x_m, y_m = float(geometry.x_m(6)), float(geometry.y_m(6))
+    assert samples.untouched_s(x_m, y_m, 0, 99.0, 101.0).size == 21
+
+
 def test_samples_of_one_moment_tell_no_footprint() -> None:
     rows, cols = np.indices((4, 4), dtype=np.float64).reshape(2, 16)
     # As near each other as two numbers can be at the time of today.
