@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from blobs_reference import Blob, find_blobs
+from contact_reference import root_deviation
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
@@ -28,7 +29,7 @@ from acts_recon.contacts.blob_motion_kernels import (
 )
 from acts_recon.contacts.blob_track_kernels import FASTEST_M_S, GATE_TAXELS, LEAST_SHARE, direction
 from acts_recon.contacts.blob_tracks import MAX_TRACKS
-from acts_recon.images import Borders, root_deviation
+from acts_recon.images import Borders
 
 Vector = NDArray[np.float64]
 

@@ -8,13 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from contact_reference import Variances, grown, variances
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.skin import Response
 from acts_recon.contacts import MAX_BLOBS, BlobConfig
-from acts_recon.images import Borders, Variances, borders_of, grown, variances
+from acts_recon.images import Borders, borders_of
 
 
 @dataclass(frozen=True)

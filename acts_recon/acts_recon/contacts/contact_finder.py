@@ -18,7 +18,7 @@ _UNKNOWN = np.empty(0, dtype=np.float32)
 
 
 class ContactFinder:
-    """Finds the contact in images of one array, as `acts_recon.contacts.contact.find_contact` does.
+    """Finds the contact in images of one array, see `acts_recon.contacts.contact_kernels.find_contact`.
 
     Parameters
     ----------

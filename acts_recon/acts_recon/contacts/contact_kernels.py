@@ -1,7 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The contact in an image, in numba: the same as `acts_recon.contacts.contact.find_contact`, without allocation."""
+"""The contact in an image, in numba, without allocation: the same as `contact_reference` in the tests.
+
+Positions are weighted by force, not by counts as in the published analysis: counts saturate, which pulls their mean
+towards the lightly pressed side of an object that is not pressed evenly (docs/reconstruction.md has figures).
+"""
 
 from __future__ import annotations
 
@@ -121,7 +125,7 @@ def find_contact(
     results[Y_SD] = math.sqrt(y_var) / total
     results[FORCE_SD] = math.sqrt(force_var)
     results[AREA_SD] = math.sqrt(taxels_var) * pitch_m * pitch_y_m
-    # As `acts_recon.images.uncertainty.root_deviation`.
+    # Of a root whose square has this variance; also where the square is next to 0.
     results[SPREAD_SD] = math.sqrt(spread_square + math.sqrt(spread_square_var) / total) - math.sqrt(spread_square)
 
 

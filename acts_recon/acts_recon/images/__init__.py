@@ -7,7 +7,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 """
 
 from acts_recon.images.baseline import BaselineSubtraction
-from acts_recon.images.borders import Borders, borders_of, grown
+from acts_recon.images.borders import Borders, borders_of
 from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
@@ -16,10 +16,7 @@ from acts_recon.images.uncertainty import (
     FAR,
     LEAST_NOISE_COUNTS,
     NOISE_COUNTS,
-    Variances,
-    root_deviation,
     slope_table,
-    variances,
 )
 from acts_recon.images.uncertainty_kernels import SMALLEST_DIVISOR, force_of, taxel_variances
 
@@ -33,15 +30,11 @@ __all__ = [
     "BaselineSubtraction",
     "Borders",
     "PlacedSamples",
-    "Variances",
     "borders_of",
     "force_of",
-    "grown",
     "mono16",
     "require_times",
     "rgb8",
-    "root_deviation",
     "slope_table",
     "taxel_variances",
-    "variances",
 ]

@@ -49,16 +49,3 @@ def borders_of(rows: int, cols: int, layout: Layout | None = None) -> Borders:
     bare = np.argwhere(layout.patch_of == NO_PATCH)
     of[layout.patch_of == NO_PATCH] = len(patches) + np.arange(len(bare))
     return Borders(np.array([*patches, *((r, r + 1, c, c + 1) for r, c in bare)], dtype=np.int32), of.ravel())
-
-
-def grown(mask: NDArray[np.bool_], borders: Borders) -> NDArray[np.bool_]:
-    """A mask of taxels, shape (rows, cols), with the eight around each on the same side of all borders."""
-    # Here: half the time a node takes to start would go by importing it, and nodes use kernels.
-    from scipy import ndimage
-
-    result = np.zeros_like(mask)
-    for first_row, end_row, first_col, end_col in borders.rectangles.tolist():
-        there = np.s_[first_row:end_row, first_col:end_col]
-        if mask[there].any():
-            result[there] = ndimage.binary_dilation(mask[there], structure=np.ones((3, 3)))
-    return result

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from blobs_reference import find_blobs
+from contact_reference import find_contact, root_deviation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -18,8 +19,7 @@ from recon_samples import bump, layouts
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
 from acts_recon.contacts import BlobConfig, blob_kernels
-from acts_recon.contacts.contact import find_contact
-from acts_recon.images import Borders, borders_of, root_deviation, slope_table
+from acts_recon.images import Borders, borders_of, slope_table
 
 pytestmark = pytest.mark.slow
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from blob_track_reference import BlobTrackerReference
+from contact_reference import find_contact
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -20,7 +21,6 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import NO_PATCH, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
 from acts_recon.contacts import BlobConfig, BlobTracker, ContactFinder
-from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
 from acts_recon.images import borders_of
 from acts_recon.sparse import Dictionary, Reconstructor, patch_layout

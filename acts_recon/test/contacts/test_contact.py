@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from blobs_reference import find_blobs
+from contact_reference import find_contact
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -15,7 +16,7 @@ from recon_samples import bump
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.contacts import Contact, contact_kernels
-from acts_recon.contacts.contact import NO_CONTACT, find_contact
+from acts_recon.contacts.contact import NO_CONTACT
 from acts_recon.images import borders_of, slope_table
 
 pytestmark = pytest.mark.slow

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from contact_reference import find_contact
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.parameter import Parameter
@@ -21,7 +22,6 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import Contact, ContactSeries
-from acts_recon.contacts.contact import find_contact
 from acts_recon.fusion import FusionEstimator
 from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.settings import ReconstructionSettings

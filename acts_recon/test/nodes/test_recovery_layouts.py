@@ -5,6 +5,7 @@
 
 import numpy as np
 import pytest
+from contact_reference import find_contact
 from recon_samples import bump, sample
 
 from acts_core.array import ArrayGeometry
@@ -12,7 +13,6 @@ from acts_core.errors import ArrayError
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.sampling.basis import division_order
 from acts_core.skin import ForceResponse, layout
-from acts_recon.contacts.contact import find_contact
 from acts_recon.methods import PerFrame, PerFrameConfig, Recovery, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor
 

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from contact_reference import find_contact
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import ForceResponse
 from acts_recon.contacts import Contact
-from acts_recon.contacts.contact import NO_CONTACT, find_contact
+from acts_recon.contacts.contact import NO_CONTACT
 from acts_recon.methods import PerFrame, PerFrameConfig, Recovery, SkinSetup
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig
 
