@@ -177,6 +177,7 @@ def _describe(
     members: NDArray[np.int32],
     blob: Any,
 ) -> None:
+    """Write force, place, size and second moments of a contact, of its taxels above `least` [counts]."""
     total = by_col = by_row = peak = 0.0
     taxels = 0
     for i in range(blob.first, blob.last):

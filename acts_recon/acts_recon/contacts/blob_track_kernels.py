@@ -112,7 +112,7 @@ def follow(
     next_number : np.ndarray [shape=(1,), dtype=int64]
         State: the number of the next new contact; 1 at first.
     found : np.ndarray [shape=(MAX_BLOBS,), dtype=FOUND]
-        Written: the contacts, by number.
+        Written: the contacts, the oldest first.
 
     Returns
     -------
@@ -205,6 +205,7 @@ def _weigh(
 
 @kernel
 def _assign(n: int, tracks: NDArray[Any], cost: NDArray[np.float64], track_of: NDArray[np.int64]) -> None:
+    """Give tracks to contacts, the pair of the least cost first, of equal ones the older track."""
     while True:
         best = math.inf
         best_b = best_t = NONE
@@ -227,6 +228,7 @@ def _assign(n: int, tracks: NDArray[Any], cost: NDArray[np.float64], track_of: N
 def _prefer_the_stronger(
     n: int, blobs: NDArray[Any], tracks: NDArray[Any], overlap: NDArray[np.int32], track_of: NDArray[np.int64]
 ) -> None:
+    """Where two contacts became one, or one became two, let the stronger keep its number."""
     for t in range(MAX_TRACKS):
         track = tracks[t]
         if track.state != ACTIVE:
@@ -256,6 +258,7 @@ def _prefer_the_stronger(
 
 @kernel
 def _begin(time_s: float, b: int, blobs: NDArray[Any], tracks: NDArray[Any], next_number: NDArray[np.int64]) -> int:
+    """Begin a track of a contact, in a free place or that of the track that is gone for longest; return the place."""
     place = NONE
     for t in range(MAX_TRACKS):
         if tracks[t].state == FREE:
@@ -309,6 +312,7 @@ def _report(
     track_of: NDArray[np.int64],
     found: NDArray[Any],
 ) -> None:
+    """Write what is told of each contact into `found`, the oldest first."""
     for b in range(n):
         # The place by age is the number of older ones: numbers wrap, times do not.
         me = tracks[track_of[b]]
