@@ -82,12 +82,11 @@ class State(NamedTuple):
     product, square, slope_square : np.ndarray [shape=(taxels,), dtype=float32]
         Sums, fading, of predicted times measured change, of predicted change squared, and of the square of what the
         slope alone predicted [counts^2], where a taxel was measured within the horizon.
-    learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
+    learnt : np.ndarray [shape=(tiles, LEARNT_COLUMNS), dtype=float32]
         Fading sums of each tile [counts^2]: the same two of taxels not measured for longer, and of low readings their
         squares, squares of their changes, calibrated variances, the readings themselves [counts], and their number.
         From them: what untouched taxels may read, in standard deviations of their calibrated noise; the share of
-        predictions that came true; 1 where the mean is better than low readings, else 0; that mean [counts]. The last
-        row is of places without skin.
+        predictions that came true; 1 where the mean is better than low readings, else 0; that mean [counts].
     log_noise : np.ndarray [shape=(patches,), dtype=float32]
         Logarithm of the noise variance of fast measured taxels over the calibrated one.
     tile_of : np.ndarray [shape=(taxels,), dtype=uint16]
@@ -163,10 +162,10 @@ class Memory(NamedTuple):
     ----------
     taxels : np.ndarray [shape=(23, taxels), dtype=float32]
     flags : np.ndarray [shape=(2, taxels), dtype=bool]
-    tiles : np.ndarray [shape=(2, tiles + 1, 6), dtype=float32]
-    velocity : np.ndarray [shape=(tiles + 1, 3), dtype=float32]
+    tiles : np.ndarray [shape=(2, tiles, 6), dtype=float32]
+    velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
     scales : np.ndarray [shape=(9, patches), dtype=float32]
-    learnt : np.ndarray [shape=(tiles + 1, LEARNT_COLUMNS), dtype=float32]
+    learnt : np.ndarray [shape=(tiles, LEARNT_COLUMNS), dtype=float32]
     patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
     owners : np.ndarray [shape=(2, taxels), dtype=uint16]
         Patch and tile of every taxel.
@@ -189,12 +188,12 @@ def new_memory(rows: int, cols: int, borders: Borders) -> Memory:
     memory = Memory(
         taxels=np.zeros((23, rows * cols), dtype=np.float32),
         flags=np.zeros((2, rows * cols), dtype=np.bool_),
-        tiles=np.zeros((2, tiles + 1, 6), dtype=np.float32),
-        velocity=np.zeros((tiles + 1, 3), dtype=np.float32),
+        tiles=np.zeros((2, tiles, 6), dtype=np.float32),
+        velocity=np.zeros((tiles, 3), dtype=np.float32),
         scales=np.zeros((9, len(patches)), dtype=np.float32),
-        learnt=np.zeros((tiles + 1, LEARNT_COLUMNS), dtype=np.float32),
+        learnt=np.zeros((tiles, LEARNT_COLUMNS), dtype=np.float32),
         patches=patches,
-        owners=np.stack((borders.rectangle_of.ravel(), _tile_of(rows, cols, patches, tiles))).astype(np.uint16),
+        owners=np.stack((borders.rectangle_of.ravel(), _tile_of(rows, cols, patches))).astype(np.uint16),
     )
     forget(memory)
     return memory
@@ -215,9 +214,9 @@ def expect_noise(memory: Memory) -> None:
     state.log_noise.fill(0.0)
 
 
-def _tile_of(rows: int, cols: int, patches: NDArray[np.int64], none: int) -> NDArray[np.uint16]:
-    """Tile of every taxel; `none` where there is no skin."""
-    tile_of = np.full((rows, cols), none, dtype=np.uint16)
+def _tile_of(rows: int, cols: int, patches: NDArray[np.int64]) -> NDArray[np.uint16]:
+    """Tile of every taxel; where there is no skin each taxel is a patch, so that none is without."""
+    tile_of = np.zeros((rows, cols), dtype=np.uint16)
     for top, bottom, left, right, first, _, tile_cols in patches.tolist():
         row, col = np.ogrid[: bottom - top, : right - left]
         tile_of[top:bottom, left:right] = first + row // TILE * tile_cols + col // TILE
