@@ -173,6 +173,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
 
     def __post_init__(self) -> None:
         RealtimeConfig.__post_init__(self)
+        SharpnessConfig.__post_init__(self)
         layout_path(self.layout)  # refuses what is neither a name nor a path
         for name in self.unused:
             value = getattr(self, name)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_core.skin import SkinPatch
 from acts_recon.regions import sharpness_kernels as kernels
@@ -51,6 +52,11 @@ class SharpnessConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        if self.sharpness_tip_radius_m >= self.sharpness_blunt_radius_m:
+            raise SettingsError(
+                f"sharpness_tip_radius_m = {self.sharpness_tip_radius_m:g}: allowed is below sharpness_blunt_radius_m "
+                f"({self.sharpness_blunt_radius_m:g})"
+            )
 
 
 class Sharpness:

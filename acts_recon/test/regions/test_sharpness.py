@@ -14,10 +14,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table, layout
 from acts_recon.regions import SharpnessConfig
 from acts_recon.regions import sharpness_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness
+from acts_recon.settings import ReconstructionSettings
 
 FINGER = replace(layout("leap_right").patches[2], first_row=0, end_row=8, first_col=0, end_col=8)
 RESPONSE = ForceResponse()
@@ -126,6 +128,12 @@ def test_a_tip_far_finer_than_the_taxels_is_told() -> None:
         image = np.zeros((8, 8), dtype=np.float32)
         image[3, 4], image[3, 5] = 500.0, beside
         assert np.isfinite(Sharpness((wide,), force_table(RESPONSE), 8.0, NOISE_COUNTS, config).of(image)).all()
+
+
+@pytest.mark.parametrize("kind", [SharpnessConfig, ReconstructionSettings])
+def test_a_tip_is_finer_than_what_is_blunt(kind: type) -> None:
+    with pytest.raises(SettingsError, match=r"sharpness_tip_radius_m = 0.004: allowed is below .* \(0.004\)"):
+        kind(sharpness_tip_radius_m=0.004, sharpness_blunt_radius_m=0.004)
 
 
 def test_a_line_is_no_tip() -> None:
