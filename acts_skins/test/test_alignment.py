@@ -96,6 +96,20 @@ def test_of_a_slow_skin_the_limits_follow_its_rate() -> None:
     assert skin.stale_after_s == pytest.approx(0.5)
 
 
+def test_no_frame_waits_for_the_next_one_of_a_slow_skin() -> None:
+    aligner = make()
+    ages_s = []
+    for time_ms in range(0, 4000, 10):
+        for name, step_ms in (("left", 200), ("right", 1000)):
+            if time_ms % step_ms == 0:
+                stream(aligner, name, time_ms, time_ms + 1)
+        skin = by_name(aligner.step(NOW + time_ms * MS))["left"]
+        if time_ms > 1000:
+            ages_s.append(skin.age_s)
+    # As old as the next one is away, and what it waits for the other skin.
+    assert max(ages_s) <= 0.2 + CONFIG.align_s + 0.01
+
+
 def test_a_skin_that_never_came_is_lost() -> None:
     aligner = make()
     stream(aligner, "left", 0, 3)

@@ -141,8 +141,8 @@ class _Skin(Generic[F]):
 class Aligner(Generic[F]):
     """Aligns frames of several skins, each with its time of measurement, to a common time.
 
-    Of the newest stamps t of all fresh skins, the common time is max(min t, max t - `align_s`). It never decreases,
-    unless the clock was set back.
+    Of the newest stamps t of all fresh skins, the common time is max(min t, max t - `align_s`), and max t once that is
+    `align_s` ago. It never decreases, unless the clock was set back.
 
     Parameters
     ----------
@@ -204,8 +204,14 @@ class Aligner(Generic[F]):
             for skin in self._skins.values()
             if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_after_s(skin) * _NS_PER_S
         ]
-        # Without a fresh skin, the remaining frames are returned with the present time.
-        time_ns = max(min(fresh), max(fresh) - self._align_ns) if fresh else now_ns
+        if not fresh:
+            # The remaining frames are returned with the present time.
+            time_ns = now_ns
+        elif now_ns - max(fresh) >= self._align_ns:
+            # The next frame of a slow skin is far: this one waits no longer for the others.
+            time_ns = max(fresh)
+        else:
+            time_ns = max(min(fresh), max(fresh) - self._align_ns)
         self._time_ns = max(self._time_ns, time_ns)
         return Aligned(self._time_ns, tuple(self._aligned(name, skin, now_ns) for name, skin in self._skins.items()))
 
