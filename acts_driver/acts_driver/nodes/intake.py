@@ -130,7 +130,8 @@ class Intake:
     def _on_frames(self, frames: list[SampleFrame], arrival_ns: int) -> None:
         """Frames that were read together; on the reader's thread."""
         session = self.session
-        frames = self._stale_frames.new(frames, is_known=session is None or session.has_verdict)
+        if not self._stale_frames.is_over:
+            frames = self._stale_frames.new(frames, is_known=session is None or session.has_verdict)
         accepted = self.stream.accept(frames, arrival_ns)
         if self._backlog.lasts(arrival_ns, self.stream.clock.delay_ns):
             self.reader.discard()

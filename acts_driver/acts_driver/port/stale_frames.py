@@ -19,12 +19,17 @@ class StaleFrames:
     ----------
     decoder : Decoder
         Decodes the stream.
+
+    Attributes
+    ----------
+    is_over : bool
+        Whether all frames from now on are of this session: `new` need not be called any more.
     """
 
     def __init__(self, decoder: Decoder) -> None:
         self._decoder = decoder
         self._before_answer: int | None = None
-        self._is_over = False
+        self.is_over = False
 
     def receive(self, message: BoardMessage) -> None:
         """Note the first reply; called with every message while bytes are decoded."""
@@ -41,10 +46,8 @@ class StaleFrames:
         is_known : bool
             Whether the board has replied, or is known not to.
         """
-        if self._is_over:
-            return frames
         if not is_known:
             return []
-        self._is_over = True
+        self.is_over = True
         first = self._decoder.frames - len(frames)
         return frames[max((self._before_answer or 0) - first, 0) :]
