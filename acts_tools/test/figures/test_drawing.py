@@ -33,6 +33,7 @@ def page() -> Iterator[Any]:
 def diagrams(page: Any, panels: list[Panel]) -> tuple[list[Any], list[Any]]:
     """Draw panels with their legends, and return where diagrams and legends are."""
     from acts_tools.figures.drawing.diagrams import draw_panel
+    from acts_tools.figures.drawing.images import draw_scales
     from acts_tools.figures.drawing.legends import draw_legends
     from acts_tools.figures.drawing.over_time import scale_of
     from acts_tools.figures.drawing.style import Looks
@@ -40,6 +41,7 @@ def diagrams(page: Any, panels: list[Panel]) -> tuple[list[Any], list[Any]]:
     looks, places = Looks(panels), list(page.axes)
     for axes, panel in zip(places, panels, strict=True):
         draw_panel(axes, panel, looks, scale_of(panels))
+    draw_scales(page, places, panels)
     draw_legends(page, places, panels, looks, None)
     page.canvas.draw()
     legends = [*page.legends, *(axes.get_legend() for axes in page.axes if axes.get_legend())]
@@ -56,6 +58,18 @@ def test_legends_are_beside_the_diagrams(page: Any, colours: tuple[str, str], ex
     assert len(legends) == expected
     assert not any(one.overlaps(other) for one in axes for other in legends)
     assert all(axis.width > 150 for axis in axes)
+
+
+@pytest.mark.parametrize("image_at", [0, 1])
+def test_the_scale_of_an_image_is_beside_the_diagrams(page: Any, image_at: int) -> None:
+    curve = Panel("a curve", curves=[Curve("a line with a long name", [0.0, 1.0], [0.0, 1.0], OURS, "C0")])
+    panels = [curve]
+    panels.insert(image_at, Panel("an image", picture=Picture([[1.0, 2.0], [3.0, 4.0]], unit="counts")))
+    places = list(page.axes)
+    axes, (legend,) = diagrams(page, panels)
+    (scale,) = [one.get_tightbbox() for one in page.axes if one not in places and one.get_ylabel() == "counts"]
+    assert not any(scale.overlaps(other) for other in [*axes, legend])
+    assert not any(legend.overlaps(other) for other in axes)
 
 
 def test_other_arrays_are_told_apart() -> None:

@@ -48,8 +48,8 @@ def draw_legends(figure: Any, axes: Sequence[Any], panels: Sequence[Panel], look
             free.axis("off")
             free.legend(handles, list(order), loc="center")
         else:
-            # For a scale, the layout makes room beside all diagrams; for a legend only from matplotlib 3.7 on.
-            place, _ = make_axes(list(axes), location="right", fraction=_NARROW)
+            # For a scale, the layout makes room beside diagrams; for a legend only from matplotlib 3.7 on.
+            place, _ = make_axes(_of_the_last_column(axes), location="right", fraction=_NARROW)
             place.axis("off")
             legend = place.legend(handles, list(order), loc="center")
             _widen(figure, _width_inch(figure, legend))
@@ -61,6 +61,12 @@ def draw_legends(figure: Any, axes: Sequence[Any], panels: Sequence[Panel], look
             widths.append(_width_inch(figure, legend))
     columns = axes[0].get_gridspec().ncols
     _widen(figure, columns * max(widths, default=0.0))
+
+
+def _of_the_last_column(axes: Sequence[Any]) -> list[Any]:
+    """Those that have no diagram to their right. Beside others may be a scale, which is then not covered."""
+    stops = [axis.get_subplotspec().colspan.stop for axis in axes]
+    return [axis for axis, stop in zip(axes, stops, strict=True) if stop == max(stops)]
 
 
 def _entries(axes: Any) -> dict[str, Any]:
