@@ -1,16 +1,19 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What skins are called on the page, in a real browser: the one in the root namespace, and those with long names."""
+"""Names and long words on the page, in a real browser: a skin in the root namespace, long names, what nodes say."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
+
+from acts_view.skin.snapshot import Frame
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -52,3 +55,23 @@ def test_a_long_name_stays_in_the_card_of_its_skin(
         }"""
     )
     assert is_inside
+
+
+def test_what_nodes_say_in_long_words_makes_a_phone_s_page_no_wider(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    path = "/dev/serial/by-id/usb-Teensyduino_USB_Serial_12345678-if00"
+
+    def change(frame: Frame) -> Frame:
+        hand = {**frame.hand, "reason": path, "events": [[path, 1]], "joints": [["x" * 60, 0.5]]}
+        return replace(frame, hand=hand, ball={**frame.ball, "segment": path, "reason": path})
+
+    player = play(change=change)
+    node = {"name": "plate/driver", "level": 2, "message": path, "age_s": 0.0, "values": [["x" * 60, path]]}
+    player.status = {"diagnostics": [node], "note": path}
+    page = open_page(player, 360, 800)
+    expect(page.locator("#note")).to_have_text(path)
+    page.click("#diagnostics summary")
+    expect(page.locator("#diagnostics dd")).to_have_text(path)
+    expect(page.locator(".regions .joints dt")).to_have_text("x" * 60)
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
