@@ -75,3 +75,9 @@ def test_what_nodes_say_in_long_words_makes_a_phone_s_page_no_wider(
     expect(page.locator("#diagnostics dd")).to_have_text(path)
     expect(page.locator(".regions .joints dt")).to_have_text("x" * 60)
     assert page.evaluate("document.documentElement.scrollWidth") == 360
+    lines = """() => {
+      const angle = document.createRange();
+      angle.selectNodeContents(document.querySelector(".regions .joints dd"));
+      return angle.getClientRects().length;
+    }"""
+    assert page.evaluate(lines) == 1
