@@ -18,7 +18,14 @@ const STATES = { connecting: "connecting", live: "connected", gone: "server gone
 const LISTS = ["scale", "unit", "colours", "window"];
 const SWITCHES = ["smooth", "contacts", "outlines", "unsure", "measured"];
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
-const ZOOMS = { "+": (plots) => plots.zoom(0.5), "=": (plots) => plots.zoom(0.5), "-": (plots) => plots.zoom(2), 0: (plots) => plots.reset(), "<": (plots) => plots.move(-0.5), ">": (plots) => plots.move(0.5) };
+const ZOOMS = {
+  "+": (plots) => plots.zoom(0.5),
+  "=": (plots) => plots.zoom(0.5), // the same key without Shift
+  "-": (plots) => plots.zoom(2),
+  0: (plots) => plots.reset(),
+  "<": (plots) => plots.move(-0.5),
+  ">": (plots) => plots.move(0.5),
+};
 
 const panels = new Panels(document.getElementById("skins"), () => hold(true));
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));

@@ -29,6 +29,15 @@ const NUMBERS = [
   ["lost", "Lost", "in 60 s"],
 ];
 
+const SAVERS = [
+  ["picture", "Picture", "of the skin, as it is shown (PNG)"],
+  ["taxels", "Taxels, CSV", "a row for each taxel"],
+  ["contacts", "Contacts, CSV", "a row for each contact"],
+  ["plots", "Plots, CSV", "what the plots show, 8 ms a row"],
+];
+
+const COLUMNS = [["force", "N"], ["peak", "counts"], ["area", "mm²"], ["speed", "mm/s"]];
+
 const MARKUP = `
   <header><h2></h2><p class="shape"></p><p class="pill" data-state="waiting">waiting</p><p class="lacks"></p></header>
   <div class="body">
@@ -36,14 +45,14 @@ const MARKUP = `
       <div class="canvases"><canvas class="taxels"></canvas><canvas class="marks" tabindex="0" role="img"></canvas></div>
       <div class="legend"><div class="ramp"></div><p class="ends"><span>0</span><span class="unit">counts</span><span class="top">1023</span></p></div>
       <p class="pointed"></p><p class="unseen" role="status"></p>
-      <p class="savers" role="group" aria-label="Save what is shown"><button type="button" data-save="picture" title="of the skin, as it is shown (PNG)">Picture</button><button type="button" data-save="taxels" title="a row for each taxel">Taxels, CSV</button><button type="button" data-save="contacts" title="a row for each contact">Contacts, CSV</button><button type="button" data-save="plots" title="what the plots show, 8 ms a row">Plots, CSV</button></p>
+      <p class="savers" role="group" aria-label="Save what is shown">${SAVERS.map(([what, title, tip]) => `<button type="button" data-save="${what}" title="${tip}">${title}</button>`).join("")}</p>
     </div>
     <div class="facts">
       <dl class="numbers">${NUMBERS.map(([key, title, unit]) => `<div data-of="${key}"><dt>${title} [${unit}]</dt><dd><output aria-live="off" data-number="${key}">–</output></dd></div>`).join("")}</dl>
       <table class="contacts">
         <caption>Contacts</caption>
-        <thead><tr><th scope="col">no.</th><th scope="col">force <small>N</small></th><th scope="col">peak <small>counts</small></th><th scope="col">area <small>mm²</small></th><th scope="col">speed <small>mm/s</small></th></tr></thead>
-        <tbody>${`<tr>${"<td></td>".repeat(5)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
+        <thead><tr><th scope="col">no.</th>${COLUMNS.map(([title, unit]) => `<th scope="col">${title} <small>${unit}</small></th>`).join("")}</tr></thead>
+        <tbody>${`<tr>${"<td></td>".repeat(1 + COLUMNS.length)}</tr>`.repeat(CONTACT_ROWS)}</tbody>
       </table>
       <p class="more"></p>
       <section class="object" hidden></section>
