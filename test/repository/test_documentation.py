@@ -91,14 +91,16 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_what_the_commands_of_the_pages_write_is_no_change_of_the_checkout(tmp_path: Path) -> None:
     text = "\n".join(page.read_text() for page in PAGES)
-    written = set(re.findall(r"acts (?:\S+ )*?(?:-o|--out|--json|--picture) ([a-z0-9_./]+)", text))
+    written = set(re.findall(r"acts (?:\S+ )*?(?:-o|--out|--json|--picture|--recordings) ([a-z0-9_./]+)", text))
     # Without -o: named after bag and format.
     written |= {
         f"{bag}.npz" if kind == "npz" else f"{bag}_{kind}"
         for bag in re.findall(r"acts export (\w+) --to \w+ +#", text)
         for kind in FORMATS
     }
-    assert {"touch", "touch_csv", "touch.npz", "objects.npz", "out/one.json"} <= written
+    # Without --out.
+    written |= {"figures" for _ in re.findall(r"acts figures(?! .*--out)", text)}
+    assert {"touch", "touch_csv", "touch.npz", "objects.npz", "out/one.json", "scenes", "figures"} <= written
     shutil.copy(ROOT / ".gitignore", tmp_path)
     subprocess.run(["git", "init", "--quiet", tmp_path], check=True, timeout=60)
     ignored = subprocess.run(
