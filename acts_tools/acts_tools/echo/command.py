@@ -47,13 +47,14 @@ def run(arguments: argparse.Namespace) -> int:
     topic = full_name(arguments.topic)
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags import require_rosbags
+
+    require_rosbags()
     from acts_ros.executor import spin_for
     from acts_tools.echo.inbox import Inbox
     from acts_tools.echo.message_text import message_text
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
-    require_rosbags()
     printed = 0
     with StopFlag() as stop, command_node("acts_echo") as (node, executor):
         inbox = Inbox(node, topic)

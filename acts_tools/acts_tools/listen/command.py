@@ -51,6 +51,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Listen; return 0 if messages arrived on every topic."""
     topics = list(dict.fromkeys(map(full_name, arguments.topics)))
     # Imported here, because they are slow to import and other commands do not need them.
+    from acts_ros.bags import require_rosbags
+
+    require_rosbags()
     from acts_ros.executor import spin_for
     from acts_tools.listen.listener import Listener
     from acts_tools.running.node import command_node

@@ -228,3 +228,15 @@ def test_words_that_are_no_topic_are_refused(
     assert main([*command, name]) == 1
     assert capsys.readouterr().err.startswith(f"error: {name!r} is no topic: allowed are letters, digits (not first)")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["listen", "echo"])
+def test_a_missing_library_is_told(command: str) -> None:
+    # In a process of its own, in which nothing is imported yet.
+    code = f"""import sys
+sys.modules["rosbags"] = None
+from acts_tools.cli import main
+sys.exit(main(["{command}", "/plate/contact"]))"""
+    finished = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=DEADLINE_S)
+    assert finished.returncode == 1
+    assert finished.stderr.startswith("error: the Python package rosbags is not installed. Install it with: pip")
