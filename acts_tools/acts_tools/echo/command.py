@@ -9,8 +9,8 @@ import argparse
 import sys
 import time
 
-from acts_core.errors import SettingsError
 from acts_core.names import full_name
+from acts_tools.arguments import at_least_one, seconds
 
 _TURN_S = 0.1
 
@@ -34,16 +34,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("topic", metavar="TOPIC", help="topic, such as /plate/impacts")
-    parser.add_argument("-n", "--number", type=int, metavar="N", help="end after this many messages")
-    parser.add_argument("-d", "--duration", type=float, metavar="SECONDS", help="end by itself after this time")
+    parser.add_argument("-n", "--number", type=at_least_one, metavar="N", help="end after this many messages")
+    parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print messages; return 0 if at least one came."""
-    if arguments.number is not None and arguments.number < 1:
-        raise SettingsError(f"--number {arguments.number}: at least 1 is needed")
-    if arguments.duration is not None and not 0 < arguments.duration < float("inf"):
-        raise SettingsError(f"--duration {arguments.duration:g} is not a positive time in seconds")
     topic = full_name(arguments.topic)
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags import require_rosbags

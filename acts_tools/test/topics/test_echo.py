@@ -20,7 +20,6 @@ from sensor_msgs.msg import Image
 
 from acts_msgs.msg import Impact
 from acts_ros.qos import STREAM
-from acts_tools.cli import main
 from acts_tools.echo.message_text import LONGEST_LIST, message_text
 from acts_tools.testing.probe import Probe
 
@@ -114,9 +113,3 @@ def test_who_hears_nothing_is_told(talker: Node) -> None:
     finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
     assert (finished.returncode, finished.stdout) == (1, "")
     assert finished.stderr == "/nobody: no publisher found\n"
-
-
-@pytest.mark.parametrize("words", [["--number", "0"], ["--duration", "0"], ["--duration", "nan"]])
-def test_impossible_limits_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["echo", *words, "/plate/contact"]) == 1
-    assert capsys.readouterr().err.startswith(f"error: {words[0]} {words[1]}")
