@@ -68,6 +68,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         page.goto(player.url)
         if is_live:
             page.wait_for_selector(".skin .pill[data-state=live]")
+            # What has come by then is drawn with the next picture of the screen.
+            page.evaluate("() => new Promise(requestAnimationFrame)")
         return page
 
     yield begin
