@@ -19,9 +19,9 @@ from acts_control.hand.description import HandDescription, Joint
 from acts_control.hand.motors import dynamixel_table as table
 from acts_control.hand.motors.bus import HandError, HandLostError, HandReading, finite_angles
 from acts_control.hand.motors.dynamixel_config import DynamixelConfig
+from acts_control.hand.motors.dynamixel_eeprom import check_eeprom
 from acts_control.hand.motors.dynamixel_port import DynamixelPort, name_of
 from acts_control.hand.motors.port_words import usb_latency
-from acts_core.words import counted
 
 # A motor that has been told to start anew does not answer meanwhile.
 _REBOOT_TIMEOUT_S = 2.0
@@ -65,8 +65,8 @@ class DynamixelHand:
         Raises
         ------
         HandError
-            When the port cannot be opened, or a motor is missing (all of them are named), of another kind, or refuses.
-            The torque of the others is off.
+            When the port cannot be opened, or a motor is missing (all of them are named), of another kind, or refuses,
+            or its EEPROM lets it move otherwise than it is told. The torque of the others is off.
         """
         self._is_on = False
         self._said = [None] * len(self._hand.joints)
@@ -80,7 +80,8 @@ class DynamixelHand:
             self._each(table.TORQUE, 0)
             # Where it has stopped a motor, that would refuse the goal current.
             self._each(table.WATCHDOG, 0)
-            told = [*self._check_return_delay(), *usb_latency(Path(self._config.port))]
+            told = check_eeprom(self._port, self._hand.joints, set_return_delay=self._config.set_return_delay)
+            told += usb_latency(Path(self._config.port))
             if not self._config.motor_watchdog_s:
                 told.append("motor_watchdog_s is 0: nothing stops the motors when this program hangs or dies")
             for index, joint in enumerate(self._hand.joints):
@@ -269,20 +270,6 @@ class DynamixelHand:
                 f"check the power, the cables in front of the first of them, and their IDs"
             )
 
-    def _check_return_delay(self) -> list[str]:
-        slow = [joint for joint in self._hand.joints if self._port.read(joint, table.RETURN_DELAY)]
-        if not slow:
-            return []
-        if self._config.set_return_delay:
-            for joint in slow:
-                self._port.write(joint, table.RETURN_DELAY, 0)
-            return [f"the return delay of {counted(len(slow), 'motor')} has been set to 0 in their EEPROM"]
-        waiting = counted(len(slow), "motor waits before it answers", "motors wait before they answer")
-        return [
-            f"{waiting} (return delay, register 9, up to 0.5 ms each): "
-            f"start once with set_return_delay true, which sets it to 0"
-        ]
-
     def _set_up(self, index: int) -> None:
         joint = self._hand.joints[index]
         # Another mode brings the gains and the current back to its own: they come after it. An EEPROM wears out by
@@ -292,6 +279,9 @@ class DynamixelHand:
         for register, gain in zip((table.P_GAIN, table.I_GAIN, table.D_GAIN), self._gains[index], strict=True):
             self._port.write(joint, register, gain)
         self._port.write(joint, table.GOAL_CURRENT, self._config.max_current_ma)
+        # Goals come at a limited speed already; what another program has left would be a second limit.
+        for register in (table.PROFILE_ACCELERATION, table.PROFILE_VELOCITY):
+            self._port.write(joint, register, 0)
 
     def _choose_what_is_read(self, joint: Joint) -> None:
         for register, address in zip(table.INDIRECT_ADDRESSES, table.GATHERED, strict=False):

@@ -1,0 +1,95 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What somebody may have set in the EEPROM of the motors, which a hand cannot be moved with, or not well.
+
+The limits of the position are not looked at: they do not count in current-based position control.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from acts_control.hand.description import Joint
+from acts_control.hand.motors import dynamixel_table as table
+from acts_control.hand.motors.bus import HandError
+from acts_control.hand.motors.dynamixel_port import DynamixelPort, name_of
+from acts_core.words import counted
+
+# Register, the bits of it that have to be 0, and what they do otherwise.
+_REFUSED = (
+    (table.DRIVE_MODE, table.REVERSED, "they turn the other way (drive mode, register 10, bit 0)"),
+    (table.DRIVE_MODE, table.TORQUE_ON_BY_GOAL, "a goal switches their torque on (drive mode, register 10, bit 3)"),
+    (table.HOMING_OFFSET, 0xFFFFFFFF, "their zero is elsewhere (homing offset, register 20)"),
+    (
+        table.STARTUP,
+        table.TORQUE_ON_AT_START,
+        "power switches their torque on (startup configuration, register 60, bit 0)",
+    ),
+)
+
+
+def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], *, set_return_delay: bool) -> list[str]:
+    """Refuse motors that would move otherwise than they are told; tell what else is not as it should be.
+
+    Parameters
+    ----------
+    port : DynamixelPort
+    joints : sequence of Joint
+        Their motors' torque is off.
+    set_return_delay : bool
+        Whether to set the return delay to 0 where it is not.
+
+    Returns
+    -------
+    list of str
+        What a person should know of, in sentences.
+
+    Raises
+    ------
+    HandError
+        Naming all motors that turn the other way, count from another zero, or switch their torque on by themselves.
+    """
+    registers = dict.fromkeys(register for register, _, _ in _REFUSED)
+    values = {register: [port.read(joint, register) for joint in joints] for register in registers}
+    wrong = []
+    for register, bits, words in _REFUSED:
+        those = [joint for joint, value in zip(joints, values[register], strict=True) if value & bits]
+        if those:
+            wrong.append(f"{words}: {_names(those)}")
+    if wrong:
+        raise HandError(
+            f"motors are set up as this hand cannot be moved: {'; '.join(wrong)}. Set these to 0 with DYNAMIXEL "
+            f"Wizard; where a joint really turns the other way or has another zero, its description says so "
+            f"(zero_rad and direction)"
+        )
+    return [*_unprotected(port, joints), *_return_delay(port, joints, set_return_delay=set_return_delay)]
+
+
+def _unprotected(port: DynamixelPort, joints: Sequence[Joint]) -> list[str]:
+    those = [joint for joint in joints if ~port.read(joint, table.SHUTDOWN) & table.PROTECTING]
+    if not those:
+        return []
+    return [
+        f"motors that do not switch themselves off at overheating, electrical shock or overload (shutdown, register "
+        f"63), and may burn: {_names(those)}: set it to {table.PROTECTING} with DYNAMIXEL Wizard"
+    ]
+
+
+def _return_delay(port: DynamixelPort, joints: Sequence[Joint], *, set_return_delay: bool) -> list[str]:
+    slow = [joint for joint in joints if port.read(joint, table.RETURN_DELAY)]
+    if not slow:
+        return []
+    if set_return_delay:
+        for joint in slow:
+            port.write(joint, table.RETURN_DELAY, 0)
+        return [f"the return delay of {counted(len(slow), 'motor')} has been set to 0 in their EEPROM"]
+    waiting = counted(len(slow), "motor waits before it answers", "motors wait before they answer")
+    return [
+        f"{waiting} (return delay, register 9, up to 0.5 ms each): "
+        f"start once with set_return_delay true, which sets it to 0"
+    ]
+
+
+def _names(joints: Sequence[Joint]) -> str:
+    return ", ".join(map(name_of, joints))
