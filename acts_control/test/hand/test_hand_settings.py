@@ -5,11 +5,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from acts_control.hand.control import HandLoopConfig, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.nodes.cmd_leap import CmdLeapBus
 from acts_control.hand.nodes.hand_node import HandSettings
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
 from acts_control.hand.reflexes import HandToHandConfig, make_reflexes
@@ -76,6 +79,25 @@ def test_a_grip_at_which_fingers_give_way_is_refused(settings: type) -> None:
     with pytest.raises(SettingsError, match=r"grip_force_n = 5: allowed is less than max_force_n = 5"):
         settings(grip_force_n=5.0, max_force_n=5.0)
     assert settings(grip_force_n=4.9, max_force_n=5.0).grip_force_n == 4.9
+
+
+def test_a_grip_current_that_no_motor_is_given_is_refused() -> None:
+    told = r"max_grip_current_ma = 340: .* max_current_ma = 340.*: lower max_grip_current_ma or raise max_current_ma$"
+    with pytest.raises(SettingsError, match=told):
+        HandReflexesSettings(max_current_ma=340)
+    with pytest.raises(SettingsError, match=r"max_grip_current_ma = 900: "):
+        HandReflexesSettings(max_grip_current_ma=900.0)
+    assert HandReflexesSettings(max_current_ma=341).max_current_ma == 341
+    # There it has no effect anyway: the LEAP team's node limits the current.
+    assert HandReflexesSettings(max_current_ma=100, interface="cmd_leap").max_current_ma == 100
+    # The plain hand has no grip.
+    assert HandSettings(max_current_ma=100).max_current_ma == 100
+
+
+def test_the_leap_teams_node_takes_no_hand_of_another_number_of_joints() -> None:
+    fewer = replace(LEAP_RIGHT, joints=LEAP_RIGHT.joints[:15])
+    with pytest.raises(SettingsError, match=r"interface = cmd_leap: .* 16 joints; leap_right has 15.*interface:=dynam"):
+        CmdLeapBus(fewer, lambda angles_rad: None)
 
 
 def test_another_hand_is_not_held_with_a_force_at_which_fingers_give_way() -> None:

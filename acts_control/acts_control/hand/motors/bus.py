@@ -40,6 +40,15 @@ class BusConfig:
             With what is allowed.
         """
 
+    def check_grip_current(self, max_grip_current_ma: float) -> None:
+        """Refuse a limit of the grip that the current of these motors never reaches; any is right here.
+
+        Raises
+        ------
+        SettingsError
+            With what is allowed.
+        """
+
 
 class HandReading(NamedTuple):
     """What the motors say of themselves, in the order of the joints.

@@ -60,6 +60,15 @@ class DynamixelConfig(BusConfig):
                 f"and would stop: {' or '.join(ways)}"
             )
 
+    def check_grip_current(self, max_grip_current_ma: float) -> None:
+        """See `BusConfig.check_grip_current`."""
+        if max_grip_current_ma >= self.max_current_ma:
+            raise SettingsError(
+                f"max_grip_current_ma = {max_grip_current_ma:g}: no motor takes more, with max_current_ma = "
+                f"{self.max_current_ma}, so it would not limit the grip: lower max_grip_current_ma or raise "
+                f"max_current_ma"
+            )
+
     def gains(self, joint: Joint) -> tuple[int, int, int]:
         """The P, I and D gain of a joint's motor.
 

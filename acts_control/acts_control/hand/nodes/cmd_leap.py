@@ -14,6 +14,9 @@ from collections.abc import Callable, Sequence
 
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandReading, finite_angles
+from acts_core.errors import SettingsError
+
+_JOINTS = 16
 
 TORQUE_STAYS = (
     "nothing is sent until enable is called; the torque stays on: it is the LEAP team's node's, which cannot switch it "
@@ -30,9 +33,19 @@ class CmdLeapBus:
     hand : HandDescription
     publish : callable
         Takes the motors' angles, in the order of their IDs [rad].
+
+    Raises
+    ------
+    SettingsError
+        When the hand has another number of joints than the LEAP team's node moves.
     """
 
     def __init__(self, hand: HandDescription, publish: Callable[[list[float]], None]) -> None:
+        if len(hand.joints) != _JOINTS:
+            raise SettingsError(
+                f"interface = cmd_leap: the LEAP team's node moves {_JOINTS} joints; {hand.name} has "
+                f"{len(hand.joints)}: move it by its own motors, as with interface:=dynamixel"
+            )
         self._hand = hand
         self._publish = publish
         self._order = sorted(range(len(hand.joints)), key=lambda k: hand.joints[k].motor_id)

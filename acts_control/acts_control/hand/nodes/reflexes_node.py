@@ -27,7 +27,7 @@ from acts_control.hand.control import (
     no_touch,
 )
 from acts_control.hand.description import HandKinematics, hand_description
-from acts_control.hand.motors import HandReading, with_motors
+from acts_control.hand.motors import MOTORS, HandReading, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_control.hand.nodes.torque_services import answered
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
@@ -69,6 +69,9 @@ class _OwnSettings(SupervisorConfig, MotorSettings):
     def __post_init__(self) -> None:
         MotorSettings.__post_init__(self)
         SupervisorConfig.__post_init__(self)
+        if self.interface in MOTORS:
+            config: Any = MOTORS[self.interface].config
+            config.check_grip_current(self, self.max_grip_current_ma)
 
 
 def settings_class() -> type:
