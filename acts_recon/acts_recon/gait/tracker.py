@@ -61,8 +61,8 @@ class GaitTracker:
 
     def _keep(self, foot: int, told: tuple[Step, ...]) -> tuple[Step, ...]:
         loads = self._feet[foot].loads
-        if loads is not None:
-            self._feet[1 - foot].least_span = _LEAST_OF_OTHER * loads.span
+        # A foot that has no load any more, as after a recording in another unit, measures the other no longer.
+        self._feet[1 - foot].least_span = 0.0 if loads is None else _LEAST_OF_OTHER * loads.span
         if told:
             kept = self._steps[foot]
             if kept and told[0].strike_s < kept[-1].strike_s:

@@ -200,6 +200,20 @@ def test_a_recording_that_begins_anew_leaves_nothing_of_the_run_before() -> None
     assert [gait.cadence_per_min for gait in runs] == pytest.approx([100.0] * 3, rel=0.01)
 
 
+def test_feet_are_found_again_after_their_unit_has_changed() -> None:
+    time_s = times_s(100.0)
+    left, right = walked(time_s), walked(time_s, FIRST_S + STRIDE_S / 2)
+    tracker = GaitTracker()
+    # A recording in counts, then one in newtons: each foot is measured by the other of the same recording.
+    for unit in (20_000.0, 700.0):
+        told = [
+            [*tracker.step(0, at_s, unit * one), *tracker.step(1, at_s, unit * other)]
+            for at_s, one, other in zip(time_s.tolist(), left.tolist(), right.tolist(), strict=True)
+        ]
+        assert sum(map(len, told)) > 12
+        assert all(loads is not None for loads in tracker.loads)
+
+
 def test_the_gait_is_of_the_last_time() -> None:
     tracker, time_s = GaitTracker(GaitConfig(summary_s=5.0)), times_s(100.0, 30.0)
     for at_s, value in zip(time_s.tolist(), walked(time_s).tolist(), strict=True):
