@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_sim.pressing import ContactModel
 
@@ -83,6 +84,11 @@ def vibration(skin: ContactModel, motor: Motor, duration_s: float, rng: np.rando
     duration_s : float
     rng : np.random.Generator
         Of the phases, and of the hand: slow tones up to 3 Hz of some percent of the force.
+
+    Raises
+    ------
+    SettingsError
+        When the motor stands beside the skin.
     """
     time_s = np.arange(int(duration_s * VIBRATION_RATE_HZ) + 1) / VIBRATION_RATE_HZ
     angle = 2 * np.pi * motor.frequency_hz * time_s + rng.uniform(0, 2 * np.pi)
@@ -119,4 +125,8 @@ def _foot(skin: ContactModel, motor: Motor) -> tuple[Array, Array, Array]:
     flat = part(0)
     # The foam's points are coarse: the foot carries all of the force.
     whole = flat.sum()
+    if not whole > 0.0:
+        raise SettingsError(
+            f"a motor at x_m = {motor.x_m:g}, y_m = {motor.y_m:g} does not stand on the skin, whose middle is at 0"
+        )
     return flat / whole, part(1) / whole, part(2) / whole

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
+from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 
 Array = NDArray[np.float64]
@@ -58,6 +59,13 @@ class Walk:
 
     def __post_init__(self) -> None:
         validate(self)
+        longest_share = self.stance_share * (1.0 + abs(self.limp))
+        if longest_share >= 1.0:
+            raise SettingsError(
+                f"stance_share = {self.stance_share:g} with limp = {self.limp:g}: a foot would carry for "
+                f"{longest_share:.3g} of a stride, and be set down before it is lifted; allowed is below 1: lower one "
+                f"of them"
+            )
 
     @property
     def along_m(self) -> Array:

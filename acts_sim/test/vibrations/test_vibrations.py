@@ -55,3 +55,9 @@ def test_the_same_seed_is_the_same_vibration() -> None:
 def test_what_no_motor_is_is_refused() -> None:
     with pytest.raises(SettingsError, match="frequency_hz"):
         Motor(frequency_hz=0.0)
+
+
+@pytest.mark.parametrize("place", [{"x_m": 0.5}, {"y_m": -0.2}])
+def test_a_motor_beside_the_skin_is_refused(place: dict[str, float]) -> None:
+    with pytest.raises(SettingsError, match=r"does not stand on the skin"):
+        shown(Motor(**place))

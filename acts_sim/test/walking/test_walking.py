@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from acts_core.errors import SettingsError
 from acts_sim.walking import Walk, walk
 
 TIME_S = np.arange(0.0, 10.0, 0.005)
@@ -56,3 +57,10 @@ def test_who_stands_makes_no_step_and_seeds_repeat() -> None:
     assert standing.force_n(0, TIME_S).min() > 300.0
     frames = [standing.frames(TIME_S[:20], np.random.default_rng(3)) for _ in range(2)]
     assert (frames[0] == frames[1]).all()
+
+
+@pytest.mark.parametrize(("stance_share", "limp"), [(0.9, 0.12), (0.8, -0.25)])
+def test_a_foot_that_would_be_set_down_before_it_is_lifted_is_refused(stance_share: float, limp: float) -> None:
+    with pytest.raises(SettingsError, match=rf"stance_share = {stance_share:g} with limp = {limp:g}: .* below 1"):
+        Walk(stance_share=stance_share, limp=limp)
+    assert Walk(stance_share=0.9, limp=0.1).limp == 0.1
