@@ -57,13 +57,17 @@ class PublishedData:
         Raises
         ------
         RecordingError
-            When there is none.
+            When there is none, or it has no points.
         """
         number = self._numbers.get((figure, axes, label))
         if number is None:
             known = sorted(label for file, at, label in self._numbers if (file, at) == (figure, axes))
             raise RecordingError(f"{self.folder / _INDEX}: no curve {label!r} of {figure}, axes {axes}; it has {known}")
-        return np.array(self._points[number], dtype=np.float64).reshape(-1, 2)
+        if number not in self._points:
+            raise RecordingError(
+                f"{self.folder / _CURVES}: no points of curve {number}, {label!r} of {figure}; is its end missing?"
+            )
+        return np.array(self._points[number], dtype=np.float64)
 
     def curve(
         self,

@@ -19,6 +19,7 @@ from acts_tools.cli import main
 from acts_tools.figures.differences import differences
 from acts_tools.figures.files import write_stamped
 from acts_tools.figures.registry import FIGURES, figures_named
+from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import PUBLISHED, SAME, Contours, Curve, Panel, Picture, from_json, to_json
 
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -156,6 +157,30 @@ def test_damaged_curves_are_refused_by_file_and_line(
         (tmp_path / "curves.csv").write_text(curves)
     assert main(["figures", "4D", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]) == 1
     assert error in capsys.readouterr().err
+
+
+def test_a_published_curve_without_points_is_refused_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # As where the end of curves.csv is missing.
+    index = "curve_id,figure,axes,label\n1,figS_forceResponse/forceR.fig,0,\n"
+    (tmp_path / "curves_index.csv").write_text(index)
+    (tmp_path / "curves.csv").write_text("curve_id,x,y\n2,0,0\n")
+    assert main(["figures", "S9", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]) == 1
+    assert "curves.csv: no points of curve 1, '' of figS_forceResponse/forceR.fig" in capsys.readouterr().err
+
+
+def test_the_tones_of_the_papers_method_are_drawn_wherever_they_are(tmp_path: Path) -> None:
+    def entry(volt: float, paper_hz: float) -> dict[str, Any]:
+        return {"m": 64, "volt": volt, "paper_hz": paper_hz, "paper": [[10.0], [1.0]], "peaks_hz": [20.0], "ours": None}
+
+    # Noise is the strongest tone of one voltage, far above the motor's.
+    found = {"numbers": [entry(1.0, 13.0), entry(5.0, 300.0)]}
+    run = Run(tmp_path, fast=True)
+    write_stamped(tmp_path / "shared" / "motors.json", {**run.settings, **found})
+    (panel,) = [one for one in FIGURES["rotator"].measure(run) if one.x_label.startswith("voltage")]
+    assert {curve.label: curve.y for curve in panel.curves}["paper's method"] == [13.0, 300.0]
+    assert "half the frame rate" not in [curve.label for curve in panel.curves]
 
 
 def test_an_interruption_leaves_no_half_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -93,18 +93,17 @@ def _measure(run: Run) -> list[Panel]:
     for m in sorted({entry["m"] for entry in found}):
         own = [entry for entry in found if entry["m"] == m]
         volts = [entry["volt"] for entry in own]
-        true = Curve("motor", volts, [_HZ_PER_VOLT * volt for volt in volts], TRUTH, "truth")
         half = frame_rate_hz(m) / 2
         told = [(entry["volt"], entry["peaks_hz"][0]) for entry in own if entry["peaks_hz"]]
         curves = [
-            true,
-            Curve("half the frame rate", [volts[0], volts[-1]], [half, half], TRUTH, "raster"),
+            Curve("motor", volts, [_HZ_PER_VOLT * volt for volt in volts], TRUTH, "truth"),
             Curve("paper's method", volts, [entry["paper_hz"] for entry in own], SAME, "adaptive"),
             Curve("ours", [volt for volt, _ in told], [hz for _, hz in told], OURS, "tracking"),
         ]
         # Above twice the fastest motor, half the frame rate is of no interest.
-        kept = [curve for curve in curves if max(curve.y, default=0.0) < 2 * _HZ_PER_VOLT * _VOLTS[-1]]
-        panels.append(Panel(f"strongest tone, M = {m}", "voltage [V]", "frequency [Hz]", kept))
+        if half < 2 * _HZ_PER_VOLT * _VOLTS[-1]:
+            curves.insert(1, Curve("half the frame rate", [volts[0], volts[-1]], [half, half], TRUTH, "raster"))
+        panels.append(Panel(f"strongest tone, M = {m}", "voltage [V]", "frequency [Hz]", curves))
     return panels
 
 
