@@ -80,7 +80,7 @@ class DynamixelHand:
             self._each(table.TORQUE, 0)
             # Where it has stopped a motor, that would refuse the goal current.
             self._each(table.WATCHDOG, 0)
-            told = check_eeprom(self._port, self._hand.joints, set_return_delay=self._config.set_return_delay)
+            told = check_eeprom(self._port, self._hand.joints, self._config)
             told += usb_latency(Path(self._config.port))
             if not self._config.motor_watchdog_s:
                 told.append("motor_watchdog_s is 0: nothing stops the motors when this program hangs or dies")

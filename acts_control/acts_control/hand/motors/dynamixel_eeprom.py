@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from acts_control.hand.description import Joint
 from acts_control.hand.motors import dynamixel_table as table
 from acts_control.hand.motors.bus import HandError
+from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.dynamixel_port import DynamixelPort, name_of
 from acts_core.words import counted
 
@@ -29,7 +30,7 @@ _REFUSED = (
 )
 
 
-def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], *, set_return_delay: bool) -> list[str]:
+def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], config: DynamixelConfig) -> list[str]:
     """Refuse motors that would move otherwise than they are told; tell what else is not as it should be.
 
     Parameters
@@ -37,8 +38,7 @@ def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], *, set_return_del
     port : DynamixelPort
     joints : sequence of Joint
         Their motors' torque is off.
-    set_return_delay : bool
-        Whether to set the return delay to 0 where it is not.
+    config : DynamixelConfig
 
     Returns
     -------
@@ -48,7 +48,8 @@ def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], *, set_return_del
     Raises
     ------
     HandError
-        Naming all motors that turn the other way, count from another zero, or switch their torque on by themselves.
+        Naming all motors that turn the other way, count from another zero, or switch their torque on by themselves;
+        or all that allow less current than the settings.
     """
     registers = dict.fromkeys(register for register, _, _ in _REFUSED)
     values = {register: [port.read(joint, register) for joint in joints] for register in registers}
@@ -63,7 +64,20 @@ def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], *, set_return_del
             f"Wizard; where a joint really turns the other way or has another zero, its description says so "
             f"(zero_rad and direction)"
         )
-    return [*_unprotected(port, joints), *_return_delay(port, joints, set_return_delay=set_return_delay)]
+    _check_current_limit(port, joints, config.max_current_ma)
+    return [*_unprotected(port, joints), *_return_delay(port, joints, set_return_delay=config.set_return_delay)]
+
+
+def _check_current_limit(port: DynamixelPort, joints: Sequence[Joint], max_current_ma: int) -> None:
+    """The motors would refuse the goal current, without saying why."""
+    limits_ma = [port.read(joint, table.CURRENT_LIMIT) for joint in joints]
+    those = [joint for joint, limit_ma in zip(joints, limits_ma, strict=True) if limit_ma < max_current_ma]
+    if those:
+        raise HandError(
+            f"max_current_ma = {max_current_ma}: motors allow less in their EEPROM (current limit, register 38), the "
+            f"least {min(limits_ma)} mA: {_names(those)}; lower max_current_ma, or raise the limit with DYNAMIXEL "
+            f"Wizard"
+        )
 
 
 def _unprotected(port: DynamixelPort, joints: Sequence[Joint]) -> list[str]:

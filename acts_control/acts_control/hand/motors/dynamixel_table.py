@@ -20,7 +20,7 @@ class Register(NamedTuple):
 
 
 RETURN_DELAY, DRIVE_MODE, MODE, HOMING_OFFSET = Register(9, 1), Register(10, 1), Register(11, 1), Register(20, 4)
-STARTUP, SHUTDOWN = Register(60, 1), Register(63, 1)
+CURRENT_LIMIT, STARTUP, SHUTDOWN = Register(38, 2), Register(60, 1), Register(63, 1)
 TORQUE, RETURN_LEVEL, HARDWARE_ERROR = Register(64, 1), Register(68, 1), Register(70, 1)
 D_GAIN, I_GAIN, P_GAIN = Register(80, 2), Register(82, 2), Register(84, 2)
 WATCHDOG, GOAL_CURRENT, GOAL_POSITION = Register(98, 1), Register(102, 2), Register(116, 4)

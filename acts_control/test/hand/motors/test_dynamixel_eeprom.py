@@ -15,7 +15,7 @@ from acts_control.hand.motors.dynamixel_table import Register
 
 pytestmark = pytest.mark.slow
 
-DRIVE_MODE, HOMING_OFFSET = Register(10, 1), Register(20, 4)
+DRIVE_MODE, HOMING_OFFSET, CURRENT_LIMIT = Register(10, 1), Register(20, 4), Register(38, 2)
 MAX_POSITION, STARTUP, SHUTDOWN = Register(48, 4), Register(60, 1), Register(63, 1)
 PROFILE_ACCELERATION, PROFILE_VELOCITY = Register(108, 4), Register(112, 4)
 
@@ -76,6 +76,16 @@ def test_all_that_is_wrong_is_told_at_once(bus: Bus) -> None:
     leave(bus, HOMING_OFFSET, {5: 100})
     with pytest.raises(HandError, match=r"bit 0\): 3 \(index_dip\); .*20\): 5 \(middle_mcp_forward\)\. "):
         bus.hand().connect()
+
+
+def test_motors_that_allow_less_current_are_refused_by_name(bus: Bus) -> None:
+    leave(bus, CURRENT_LIMIT, {3: 340, 12: 300})
+    told = r"max_current_ma = 350: .*register 38.* 300 mA: 3 \(index_dip\), 12 \(thumb_cmc\); lower max_current_ma"
+    hand = bus.hand()
+    with pytest.raises(HandError, match=told):
+        hand.connect()
+    hand.close()
+    assert bus.hand(max_current_ma=300).connect() == []
 
 
 def test_a_motor_that_would_not_protect_itself_is_told(bus: Bus) -> None:
