@@ -187,6 +187,7 @@ def test_reflexes_and_settings_that_there_are_not_are_refused(
 @pytest.mark.parametrize("seed", [20, 17], ids=["large, far from the thumb", "small"])
 def test_a_sphere_is_rolled_to_the_centre_and_gripped_there(seed: int) -> None:
     outcome = sphere.run(Run(seed))
+    assert outcome.details["begin_mm"] == pytest.approx(20.0, abs=0.5)
     assert outcome.kept
     assert outcome.offset_mm is not None
     assert outcome.offset_mm < 5.0

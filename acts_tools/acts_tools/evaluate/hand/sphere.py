@@ -20,6 +20,8 @@ _POSTURES = {"sphere": "round", "small_sphere": "cup"}
 _OFF_M = 0.020
 _NEAR_M = 0.005
 _SHAPED_S = 0.6
+# The sphere lies on the palm then, and no finger has reached it.
+_PUT_S = 0.1
 # In one process up to 4.5 s; live, beside other programs, half a second more.
 _GRIPPED_S = 8.0
 _BALANCED_S = 5.0
@@ -57,12 +59,13 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
     # Later, the thumb has closed too far.
     rig.run(_SHAPED_S - rig.behind_s)
     rig.world.put(_OFF_M * math.cos(angle), _OFF_M * math.sin(angle))
+    rig.run(_PUT_S + rig.behind_s)
+    palm = np.array(LEAP_RIGHT.regions["palm"].centre_m)
+    outcome.details["begin_mm"] = _distance_mm(rig, palm)
     rig.run(_GRIPPED_S, lambda: rig.state is not HandState.CLOSING)
     if rig.state is not HandState.HOLDING:
         outcome.details["failed"] = "not grasped"
         return outcome
-    palm = np.array(LEAP_RIGHT.regions["palm"].centre_m)
-    outcome.details["begin_mm"] = _distance_mm(rig, palm)
     rig.run(_BALANCED_S)
     outcome.offset_mm = _distance_mm(rig, palm)
     if name == "small_sphere":
