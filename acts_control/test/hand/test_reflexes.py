@@ -168,8 +168,11 @@ def tip_in(name: str) -> RegionContact:
     return region(name, 0.5, 1, sharpness=10.0)
 
 
+FELT_FOR_7_MS = SharpAvoidanceConfig(sharp_min_sharpness=3.0, sharp_felt_s=0.007)
+
+
 def test_only_what_is_surely_a_tip_is_avoided() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    reflex = SharpAvoidance(FELT_FOR_7_MS)
     # 2.9 is no tip, and a break begins anew.
     for k, sharpness in enumerate((2.9, 3.1, 3.1, 2.9, 3.1, 3.1)):
         assert reflex.step(sensed(region("index_distal", 0.5, 1, sharpness=sharpness), time_s=k * DT_S)) is None
@@ -178,7 +181,7 @@ def test_only_what_is_surely_a_tip_is_avoided() -> None:
 
 @pytest.mark.parametrize(("rate_hz", "cycles"), [(60.0, 2), (250.0, 3), (500.0, 5)])
 def test_a_tip_is_felt_for_as_long_at_any_rate(rate_hz: float, cycles: int) -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    reflex = SharpAvoidance(FELT_FOR_7_MS)
     opens = [reflex.step(sensed(tip_in("index_distal"), time_s=k / rate_hz)) is not None for k in range(6)]
     assert opens == [k >= cycles - 1 for k in range(6)]
 
@@ -203,7 +206,7 @@ def test_the_finger_at_a_tip_opens_at_once_and_the_others_keep_what_they_have() 
 
 
 def test_what_lifts_off_is_no_tip() -> None:
-    reflex = SharpAvoidance(SharpAvoidanceConfig())
+    reflex = SharpAvoidance(FELT_FOR_7_MS)
     forces_n = (0.8, 0.6, 0.4, 0.3, 0.2, 0.19, 0.19, 0.19)
     opens = [
         reflex.step(sensed(region("index_distal", force_n, 1, sharpness=10.0), time_s=k * DT_S)) is not None

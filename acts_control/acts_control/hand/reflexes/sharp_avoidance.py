@@ -24,14 +24,14 @@ class SharpAvoidanceConfig:
     """What counts as sharp, and how the finger gives way."""
 
     sharp_min_sharpness: float = setting(
-        3.0,
+        4.0,
         "a region feels a tip where its sharpness is larger: how much likelier a tip is than something blunt, as a "
         "natural logarithm",
         minimum=0.0,
         maximum=100.0,
     )
     sharp_felt_s: float = setting(
-        0.007,
+        0.003,
         "how long a region must feel the tip, cycle after cycle; 0: one cycle is enough [s]. An image of something "
         "that moves fast can look like a tip, because its taxels are measured one after the other",
         minimum=0.0,
