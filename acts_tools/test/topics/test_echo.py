@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import array
+import contextlib
 import subprocess
 import sys
 import time
@@ -16,6 +17,7 @@ import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from sensor_msgs.msg import Image
 
 from acts_msgs.msg import Impact
@@ -66,18 +68,24 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
         yield probe.node
 
 
+def publish_until_it_ends(process: subprocess.Popen[str], publisher: Publisher) -> None:
+    """Publish impacts, numbered from 1 on, every 10 ms until the process has ended."""
+    deadline_s = time.monotonic() + DEADLINE_S
+    number = 0
+    while process.poll() is None:
+        assert time.monotonic() < deadline_s
+        number += 1
+        publisher.publish(Impact(number=number))
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(0.01)
+
+
 def test_the_command_prints_as_many_messages_as_are_wanted(talker: Node) -> None:
     impacts = talker.create_publisher(Impact, "/plate/impacts", STREAM)
     command = [sys.executable, "-m", "acts_tools", "echo", "plate/impacts", "-n", "2"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    deadline_s = time.monotonic() + DEADLINE_S
-    number = 0
     try:
-        while process.poll() is None:
-            assert time.monotonic() < deadline_s
-            number += 1
-            impacts.publish(Impact(number=number))
-            time.sleep(0.01)  # the rate of the messages
+        publish_until_it_ends(process, impacts)
         assert process.stdout is not None
         told = list(yaml.safe_load_all(process.stdout.read()))
     finally:
@@ -93,14 +101,10 @@ def test_a_reader_that_ends_ends_the_command_without_a_word(talker: Node) -> Non
     impacts = talker.create_publisher(Impact, "/plate/impacts", STREAM)
     command = [sys.executable, "-m", "acts_tools", "echo", "plate/impacts"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    deadline_s = time.monotonic() + DEADLINE_S
     assert process.stdout is not None
     process.stdout.close()
     try:
-        while process.poll() is None:
-            assert time.monotonic() < deadline_s
-            impacts.publish(Impact())
-            time.sleep(0.01)  # the rate of the messages
+        publish_until_it_ends(process, impacts)
     finally:
         process.kill()
     assert process.stderr is not None
