@@ -24,6 +24,11 @@ DT_S = 0.004
 TAXEL_M2 = 9e-6
 
 
+def joints_of(finger: str) -> list[int]:
+    """Numbers of the joints that close a finger of the LEAP hand."""
+    return [NAMES.index(name) for name in LEAP_RIGHT.fingers[finger].closes]
+
+
 def region(name: str, force_n: float = 0.0, taxels: int = 9, **more: Any) -> RegionContact:
     """A region of the LEAP hand that feels a blunt contact."""
     link = LEAP_RIGHT.regions[name].link
