@@ -16,7 +16,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.wire.board_models import OBJECTS_MAX
 from acts_core.wire.commands import Reply, decode_reply
-from acts_core.wire.packets import PacketType, seal, unseal, version_mismatch
+from acts_core.wire.packets import PacketType, unseal, version_mismatch
 
 # sequence, board_us, duration_us, rows, cols, reserved
 _IMAGE = struct.Struct("<IQIBBH")
@@ -93,13 +93,6 @@ def decode_message(packet: bytes) -> BoardMessage:
     raise version_mismatch(f"packet type {kind}, which no board of this release sends")
 
 
-def encode_image(image: BoardImage) -> bytes:
-    """Encode an image as the board does, delimiter included: for boards in Python, as tests have them."""
-    rows, cols = image.counts.shape
-    head = _IMAGE.pack(image.sequence, image.board_us, image.duration_us, rows, cols, 0)
-    return seal(PacketType.IMAGE, head + image.counts.astype(_U2).tobytes())
-
-
 def _decode_image(content: bytes) -> BoardImage:
     if len(content) < _IMAGE.size:
         raise PacketError(f"image of {len(content)} bytes; its head alone has {_IMAGE.size}")
@@ -112,13 +105,6 @@ def _decode_image(content: bytes) -> BoardImage:
     if counts.max() > COUNT_MAX:
         raise PacketError(f"image with counts of {counts.max()}; {COUNT_MAX} is the largest there is")
     return BoardImage(sequence, board_us, duration_us, counts)
-
-
-def encode_object(message: BoardObject) -> bytes:
-    """Encode a classification as the board does, delimiter included: for boards in Python, as tests have them."""
-    number = _NO_OBJECT if message.number is None else message.number
-    head = _OBJECT.pack(message.sequence, message.board_us, message.duration_us, number, len(message.residuals), 0)
-    return seal(PacketType.OBJECT, head + message.residuals.astype(_F4).tobytes())
 
 
 def _decode_object(content: bytes) -> BoardObject:

@@ -38,7 +38,6 @@ from acts_core.wire import (
     object_library,
     patch_dictionary,
 )
-from acts_core.wire.board_messages import encode_image, encode_object
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_core.wire.board_settings import SETTINGS_SIZE
 from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, encode_reply
@@ -101,11 +100,16 @@ MESSAGES = st.one_of(REPLIES, images(), objects())
 
 
 def encoded(message: BoardMessage) -> bytes:
+    """As a board sends it; images and objects are put together as docs/wire_protocol.md describes them."""
     if isinstance(message, Reply):
         return encode_reply(message)
+    head = struct.pack("<IQI", message.sequence, message.board_us, message.duration_us)
     if isinstance(message, BoardImage):
-        return encode_image(message)
-    return encode_object(message)
+        size = struct.pack("<BBH", *message.counts.shape, 0)
+        return seal(PacketType.IMAGE, head + size + message.counts.astype("<u2").tobytes())
+    number = 0xFF if message.number is None else message.number
+    size = struct.pack("<BBH", number, len(message.residuals), 0)
+    return seal(PacketType.OBJECT, head + size + message.residuals.astype("<f4").tobytes())
 
 
 def same(one: BoardMessage, other: BoardMessage) -> bool:
