@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
@@ -16,7 +18,6 @@ from acts_recon.objects.image_classification import (
     LEVELS,
     MIXED_COLUMNS,
     REFINED_CLASSES,
-    force_penalty,
     shallower_patterns,
     src_weight,
 )
@@ -81,6 +82,20 @@ def classify_image(
         weight = src_weight(0.0, config)
         residuals = (residuals * src**weight) ** (1 / (1 + weight))
     return Classification(True, int(np.argmin(residuals)), residuals, confidence_of(residuals))
+
+
+def force_penalty(force: float, config: ImageClassifierConfig) -> float:
+    """Penalty of a force that differs from the library's, relative to the image's squared norm.
+
+    ``(relative_error / force_error * log(force))^2``
+
+    Parameters
+    ----------
+    force : float
+        Of the image in relation to the pattern as it was pressed; above 0.
+    config : ImageClassifierConfig
+    """
+    return (config.relative_error / config.force_error * math.log(force)) ** 2
 
 
 def proposed_columns(

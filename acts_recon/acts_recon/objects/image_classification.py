@@ -12,7 +12,8 @@ classified, each taxel weighted by its uncertainty (docs/recovery.md has the fig
 - **Several depths.** An object that has only begun to press shows its lowest parts. Each column of the library is
   therefore known at several depths: on an elastic foundation, a smaller depth takes a constant off all forces.
 - **Force prior.** Force goes with depth: a small object pressed hard is not a large one that has just touched.
-  `force_penalty` is its negative log-likelihood, scaled; the force is log-normal about the library's.
+  The penalty of a force is its negative log-likelihood, scaled: ``(e / force_error * log(force))^2`` of the force
+  relative to the library's, about which it is log-normal.
 - **Non-negative least squares.** A class explains the image by non-negative multiples of its own columns.
 - **Memory.** Residuals are averaged over the last frames, exponentially.
 - **SRC at rest.** While the skin hardly changes, SRC on the whole image (`image_src_kernels`) tells similar objects
@@ -118,20 +119,6 @@ def shallower_patterns(
         norms_counts.astype(np.float32),
         np.repeat(library.classes, len(LEVELS)),
     )
-
-
-def force_penalty(force: float, config: ImageClassifierConfig) -> float:
-    """Penalty of a force that differs from the library's, relative to the image's squared norm.
-
-    ``(relative_error / force_error * log(force))^2``
-
-    Parameters
-    ----------
-    force : float
-        Of the image in relation to the pattern as it was pressed; above 0.
-    config : ImageClassifierConfig
-    """
-    return (config.relative_error / config.force_error * math.log(force)) ** 2
 
 
 def src_weight(rate_counts_per_s: float, config: ImageClassifierConfig) -> float:

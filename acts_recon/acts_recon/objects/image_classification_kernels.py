@@ -34,7 +34,7 @@ def _mixture_explains(
 ) -> float:
     """Squared norm of the weighted image that `n` patterns explain by non-negative least squares.
 
-    Less the penalty of its force; see `acts_recon.objects.image_classification.force_penalty`.
+    Less the penalty of its force; see `acts_recon.objects.image_classification`.
     """
     taxels = weight.shape[0]
     for i in range(n):

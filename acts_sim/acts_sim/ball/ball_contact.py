@@ -15,12 +15,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse
-from acts_sim.ball.ball_kernels import SPREAD_OFFSETS, SPREAD_WEIGHTS, SUBPOINTS, press
+from acts_sim.ball.ball_kernels import press
 
 
 @dataclass(frozen=True)
@@ -44,41 +43,6 @@ class ContactConfig:
 def depth_m(config: ContactConfig, radius_m: float, load_n: float) -> float:
     """Depth of a sphere in the foam under a load [m]; 0 without load."""
     return math.sqrt(max(load_n, 0.0) / (math.pi * config.foam_stiffness_n_per_m3 * radius_m))
-
-
-def forces_n(
-    config: ContactConfig, geometry: ArrayGeometry, radius_m: float, x_m: float, y_m: float, load_n: float
-) -> NDArray[np.float64]:
-    """Force on every taxel; reference implementation of the kernel that `BallContact` uses.
-
-    Parameters
-    ----------
-    config : ContactConfig
-    geometry : ArrayGeometry
-    radius_m : float
-        Of the ball.
-    x_m, y_m : float
-        Position of the ball in the skin's frame [m].
-    load_n : float
-        Normal force between ball and skin [N].
-
-    Returns
-    -------
-    np.ndarray [shape=(rows, cols), dtype=float64]
-        Forces [N].
-    """
-    depth = depth_m(config, radius_m, load_n)
-    total = np.zeros((geometry.rows, geometry.cols))
-    sub = (np.arange(SUBPOINTS) + 0.5) / SUBPOINTS - 0.5
-    sub_x, sub_y = sub * geometry.pitch_m, sub * geometry.pitch_y_m
-    col_x, row_y = geometry.x_m(np.arange(geometry.cols)), geometry.y_m(np.arange(geometry.rows))
-    for offset_x, weight_x in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
-        for offset_y, weight_y in zip(SPREAD_OFFSETS, SPREAD_WEIGHTS, strict=True):
-            x = (col_x[:, None] + sub_x + offset_x * config.foam_spread_m) - x_m
-            y = (row_y[:, None] + sub_y + offset_y * config.foam_spread_m) - y_m
-            rise = depth - (x[None, :, None, :] ** 2 + y[:, None, :, None] ** 2) / (2 * radius_m)
-            total += weight_x * weight_y * np.maximum(rise, 0.0).mean(axis=(2, 3))
-    return config.foam_stiffness_n_per_m3 * geometry.taxel_area_m2 * total
 
 
 class BallContact:

@@ -3,7 +3,7 @@
 
 """Kernels of the ball's world: the plate's motion, a step of the rolling ball, and the counts under it.
 
-`ball_contact.forces_n` is the reference implementation of `press`; the other two are checked against closed solutions.
+The tests compare `press` with a reference implementation, and the other two with closed solutions.
 """
 
 from __future__ import annotations
