@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.reference import ReferenceReport
+from acts_control.beat import Beat
 from acts_control.robots.base import (
     CommandRefusedError,
     Robot,
@@ -248,19 +249,12 @@ class ControlLoop:
         gate = TiltGate(config)
         joints: tuple[float, ...] = ()
         steps = late = refused = 0
-        last = deadline = self._steady_s()
+        beat = Beat(period, self._steady_s, self._sleep)
         while controller.state.phase is not Phase.STOPPED:
-            deadline += period
-            wait = deadline - self._steady_s()
-            if wait > 0.0:
-                self._sleep(wait)
-            elif wait < -period:
-                deadline -= wait  # no burst of steps to make up for lost ones
-            now = self._steady_s()
+            cycle = beat.wait()
             steps += 1
-            late += now - last > 1.5 * period
-            dt = min(max(now - last, _MIN_STEP_S), _MAX_PERIODS * period)
-            last = now
+            late += cycle.is_late
+            dt = min(max(cycle.dt_s, _MIN_STEP_S), _MAX_PERIODS * period)
             # Before the robot is read and the time taken: it may have a whole queue of contacts to work on.
             self.look(controller.state.phase)
             reading = self._checked(watch, dt)

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from acts_control.beat import Beat
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.beyond_limits import RETURN_RAD_S, beyond_reach, to_be_brought_back
 from acts_control.hand.control.fault_memory import FaultMemory
@@ -207,19 +208,13 @@ class HandLoop:
     def _serve(self) -> None:
         """Read and command at the rate, until the hand is lost or the loop is to end."""
         period_s = 1.0 / self._config.rate_hz
-        due_s = last_s = answered_s = time.monotonic()
+        answered_s = time.monotonic()
+        beat = Beat(period_s)
         goal: list[float] = []
         try:
             while not self._closing.is_set():
-                due_s += period_s
-                wait_s = due_s - time.monotonic()
-                if wait_s > 0.0:
-                    time.sleep(wait_s)
-                elif wait_s < -period_s:
-                    due_s -= wait_s  # no burst of cycles to make up for lost ones
-                now_s = time.monotonic()
-                dt_s, last_s = now_s - last_s, now_s
-                self._count(cycles=1, late=int(dt_s > 1.5 * period_s))
+                now_s, dt_s, is_late = beat.wait()
+                self._count(cycles=1, late=int(is_late))
                 try:
                     reading = self._bus.read()
                     broken = reading.not_finite()
