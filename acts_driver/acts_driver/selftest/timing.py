@@ -97,8 +97,12 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
 
 def judge_timing(timing: Timing, thresholds: Thresholds) -> list[Finding]:
     """What of this is a fault."""
+    return [*_judge_numbers(timing, thresholds), *_judge_clock(timing, thresholds)]
+
+
+def _judge_numbers(timing: Timing, thresholds: Thresholds) -> list[Finding]:
+    """Of the frames that came, and those that did not."""
     findings = []
-    low, high = thresholds.taxel_us
     share = timing.lost / max(timing.frames + timing.lost, 1)
     of_possible = f" of {timing.possible_hz:.1f} that measuring and the rate cap allow"
     findings.append(
@@ -128,6 +132,13 @@ def judge_timing(timing: Timing, thresholds: Thresholds) -> list[Finding]:
                 "the board restarted, or its decoder does not count on beyond the board's largest number",
             )
         )
+    return findings
+
+
+def _judge_clock(timing: Timing, thresholds: Thresholds) -> list[Finding]:
+    """Of the times that the board tells, as far as it does."""
+    findings = []
+    low, high = thresholds.taxel_us
     if np.isfinite(timing.taxel_us):
         findings.append(
             _item(

@@ -80,38 +80,22 @@ def judge_touched(touch: Touched, skin: Untouched, thresholds: Thresholds) -> li
     # A line whose only taxel is stuck is not open: it reads something.
     open_rows, unpressed_rows = _silent(touch.responds.mean(axis=1), {row for row, _ in stuck if cols == 1}, thresholds)
     open_cols, unpressed_cols = _silent(touch.responds.mean(axis=0), {col for _, col in stuck if rows == 1}, thresholds)
-    findings = [
-        _lines("rows", "row", open_rows, touch.same_rows),
-        _lines("columns", "column", open_cols, touch.same_cols),
-    ]
-    flat = [item for pair in findings for item in pair]
-    flat.append(_address(touch.broken_bits))
     sound = np.ones(touch.responds.shape, dtype=bool)
     sound[list(open_rows)] = False
     sound[:, list(open_cols)] = False
-    flat.append(_stuck(stuck, loaded, skin))
     for taxel in stuck:
         sound[taxel] = False
     dead, weak = _quiet(touch, sound, thresholds)
-    flat += _taxels(dead, weak)
     for taxel in dead:
         sound[taxel] = False
-    share = float(touch.responds[sound].mean()) if sound.any() else 0.0
-    lines = (("rows", unpressed_rows), ("columns", unpressed_cols))
-    unpressed = [f"{word} {listed(numbers)}" for word, numbers in lines if numbers]
-    if share >= thresholds.covered_share and not unpressed:
-        flat.append(Finding(Level.PASS, "coverage", f"{100 * share:.0f} % of the sound taxels were pressed"))
-    else:
-        words = f", none in {' and '.join(unpressed)}" if unpressed else ""
-        flat.append(
-            Finding(
-                Level.WARN,
-                "coverage",
-                f"only {100 * share:.0f} % of the sound taxels were pressed{words}",
-                "what was not pressed was not judged: repeat it and roll over the whole skin, edges included",
-            )
-        )
-    return flat
+    return [
+        *_lines("rows", "row", open_rows, touch.same_rows),
+        *_lines("columns", "column", open_cols, touch.same_cols),
+        _address(touch.broken_bits),
+        _stuck(stuck, loaded, skin),
+        *_taxels(dead, weak),
+        _coverage(touch.responds[sound], unpressed_rows, unpressed_cols, thresholds),
+    ]
 
 
 def _scan_share(record: FrameRecord) -> float:
@@ -262,3 +246,20 @@ def _taxels(dead: tuple[tuple[int, int], ...], weak: tuple[tuple[int, int], ...]
             )
         )
     return findings
+
+
+def _coverage(
+    responds: NDArray[np.bool_], rows: tuple[int, ...], cols: tuple[int, ...], thresholds: Thresholds
+) -> Finding:
+    """How much was judged; in come whether each sound taxel responded, and lines of which nothing can be said."""
+    share = float(responds.mean()) if responds.size else 0.0
+    unpressed = [f"{word} {listed(lines)}" for word, lines in (("rows", rows), ("columns", cols)) if lines]
+    if share >= thresholds.covered_share and not unpressed:
+        return Finding(Level.PASS, "coverage", f"{100 * share:.0f} % of the sound taxels were pressed")
+    words = f", none in {' and '.join(unpressed)}" if unpressed else ""
+    return Finding(
+        Level.WARN,
+        "coverage",
+        f"only {100 * share:.0f} % of the sound taxels were pressed{words}",
+        "what was not pressed was not judged: repeat it and roll over the whole skin, edges included",
+    )
