@@ -68,7 +68,7 @@ class BaselineServices:
         node.create_service(Trigger, "~/tare", self._tare)
         # Nobody is answered yet: a slow file has all the time it needs.
         self._begin(parameters, rows, cols, lambda load, _what: load())
-        self._timer = steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
+        steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
 
     def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
         """Begin anew with other parameters, while no frames come.

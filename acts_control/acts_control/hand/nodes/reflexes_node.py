@@ -186,10 +186,8 @@ class HandReflexesNode(MotorNode):
         for name in ("grasp", "release"):
             self.create_service(Trigger, f"~/{name}", self._answer(name))
         self.create_service(Trigger, "~/stop", self._on_stop)
-        self._steady_timers = (
-            steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status),
-            steady_timer(self, _TIMING_PERIOD_S, self._publish_timing),
-        )
+        steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
+        steady_timer(self, _TIMING_PERIOD_S, self._publish_timing)
 
     def report(self) -> Report:
         """What the diagnostics say: of the motors, and of what the hand does."""

@@ -33,7 +33,7 @@ class TorqueServices:
     def __init__(self, node: PollingNode, asks: Mapping[str, Callable[[], PendingAnswer]]) -> None:
         self._asks = [(node.create_polled_service(Trigger, name), ask) for name, ask in asks.items()]
         self._waiting: list[tuple[PolledService, Any, PendingAnswer]] = []
-        self._timer = steady_timer(node, _PERIOD_S, self.serve)
+        steady_timer(node, _PERIOD_S, self.serve)
 
     def serve(self) -> None:
         """Take the requests that have come, and answer those of which the outcome is known."""
