@@ -56,7 +56,7 @@ def test_the_skin_is_sampled_and_found_pressed_as_the_launch_file_has_it() -> No
 def test_an_untouched_patch_is_searched_too() -> None:
     rig = HandRig(HandWorldConfig(object="cylinder", object_held=True), RigOptions())
     rig.run(0.1)
-    rig.world.tip.poke("index_medial", 0.004, 0.05, 0.004, 0.001)
+    rig.world.tip.poke("index_medial", 0.004, 0.05, 0.004, start_m=0.001)
     poked = lambda: next(one for one in rig.regions if one.name == "index_medial")  # noqa: E731
     assert rig.run(0.2, lambda: poked().in_contact)
     assert rig.world.truth.tip_depth_m < 0.003

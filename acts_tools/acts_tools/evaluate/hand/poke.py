@@ -62,7 +62,7 @@ def _poke(one: Run, radius_m: float) -> Outcome:
     held = {region.name for region in rig.regions if region.in_contact} - {patch}
     joints = [k for k, name in enumerate(LEAP_RIGHT.names) if name in LEAP_RIGHT.fingers[finger].closes]
     row, col = draw.uniform(1.0, 6.0, 2)
-    rig.world.tip.poke(patch, radius_m, _SPEED_M_S, _TRAVEL_M, 0.002, float(row), float(col))
+    rig.world.tip.poke(patch, radius_m, _SPEED_M_S, _TRAVEL_M, start_m=0.002, row=float(row), col=float(col))
     touched_s = noticed_s = opened_s = None
     deepest_m = 0.0
     end_s = rig.time_s + _WATCHED_S
