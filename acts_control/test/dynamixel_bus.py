@@ -19,7 +19,7 @@ import pytest
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
-from acts_sim.dynamixel import ask_once
+from acts_sim.dynamixel import ControlClient
 
 DEADLINE_S = 30.0
 # Half of how long an answer is waited for: a loaded machine is slow.
@@ -45,7 +45,8 @@ class Bus:
         self.process.stdout.readline()
 
     def command(self, line: str) -> str:
-        return ask_once(self.control, line)
+        with ControlClient(self.control) as client:
+            return client.ask(line)
 
     def motors(self) -> list[dict[str, Any]]:
         return list(json.loads(self.command("state"))["motors"])

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from dynamixel_sdk import PacketHandler, PortHandler, port_handler
 
-from acts_sim.dynamixel import ask_once
+from acts_sim.dynamixel import ControlClient
 
 IDS = list(range(16))
 
@@ -58,7 +58,8 @@ class MotorBus:
 
     def command(self, line: str) -> str:
         """The answer to a line for the control socket."""
-        return ask_once(self.control, line)
+        with ControlClient(self.control) as client:
+            return client.ask(line)
 
     def close(self) -> None:
         """End the process, which succeeds."""

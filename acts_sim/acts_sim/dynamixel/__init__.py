@@ -8,7 +8,7 @@ In come packets on a pseudo-terminal; out come replies. A drive moves each motor
 
 from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.control import ControlSocket
-from acts_sim.dynamixel.control_client import ControlClient, ask_once
+from acts_sim.dynamixel.control_client import ControlClient
 from acts_sim.dynamixel.control_table import MODELS
 from acts_sim.dynamixel.drive import RAD_PER_TICK
 from acts_sim.dynamixel.faults import MOTOR_FAULTS, do_to_motor, state
@@ -25,7 +25,6 @@ __all__ = [
     "ControlSocket",
     "Motor",
     "OverloadLaw",
-    "ask_once",
     "do_to_motor",
     "state",
 ]

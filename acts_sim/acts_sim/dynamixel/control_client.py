@@ -85,9 +85,3 @@ class ControlClient:
     def close(self) -> None:
         """Leave."""
         self._socket.close()
-
-
-def ask_once(path: Path, line: str) -> str:
-    """Send one line over a new connection; see `ControlClient.ask`."""
-    with ControlClient(path) as client:
-        return client.ask(line)
