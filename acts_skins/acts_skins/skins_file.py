@@ -141,7 +141,7 @@ class SkinsFile:
         """Pose of every frame of the file: its further frames, then the skins."""
         return {**self.frames, **{skin.name: skin.pose for skin in self.skins}}
 
-    def merged_in(self, base_frame: str = "") -> str:
+    def merged_in(self, base_frame: str) -> str:
         """Frame of the merged contacts: `base_frame`, or that of the file where it is empty or none."""
         return base_frame if is_given(base_frame) else self.base_frame
 

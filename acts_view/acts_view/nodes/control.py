@@ -42,6 +42,7 @@ RANGES = {"m": (0, MAX_SIDE**2), "threshold_counts": (-1, COUNT_MAX)}
 """Lowest and highest value of each number that can be set."""
 
 _PARAMETERS = ("scheme", *RANGES)
+# How long an answer of a service is waited for.
 _PATIENCE_S = 10.0
 _WAITING_MAX = 32
 # Anybody in the domain can make up more.
@@ -65,14 +66,12 @@ class Control:
     node : Node
         Spun by somebody else.
     recording : Recording
-    patience_s : float
-        A service that has not answered within this time is waited for no longer [s].
     """
 
-    def __init__(self, node: Node, recording: Recording, patience_s: float = _PATIENCE_S) -> None:
+    def __init__(self, node: Node, recording: Recording) -> None:
         self._node = node
         self._recording = recording
-        self._patience_s = patience_s
+        self._patience_s = _PATIENCE_S
         self._requests: deque[tuple[Request, Answer]] = deque()
         self._services: dict[str, list[str]] = {}
         self._clients: dict[str, Client] = {}

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-PAGE = Path(__file__).parents[1] / "page"
+_PAGE = Path(__file__).parents[1] / "page"
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -24,11 +24,11 @@ class PageFile(NamedTuple):
     body: bytes
 
 
-def read_page(folder: Path = PAGE) -> dict[str, PageFile]:
+def read_page() -> dict[str, PageFile]:
     """All files that are served, by path; nothing else on the machine can be asked for."""
     files = {
-        f"/{path.relative_to(folder).as_posix()}": PageFile(_TYPES[path.suffix], path.read_bytes())
-        for path in sorted(folder.rglob("*"))
+        f"/{path.relative_to(_PAGE).as_posix()}": PageFile(_TYPES[path.suffix], path.read_bytes())
+        for path in sorted(_PAGE.rglob("*"))
         if path.suffix in _TYPES
     }
     return {"/": files["/index.html"], **files}
