@@ -13,7 +13,9 @@ import sys
 import time
 from collections import Counter, defaultdict, deque
 from collections.abc import Sequence
+from operator import sub
 from statistics import median
+from typing import NamedTuple
 
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
@@ -50,6 +52,19 @@ from acts_ros.polled import PolledSubscription
 _SUBSCRIBERS_PERIOD_S = 0.2
 # Of each kind, so that one that comes often hides no other.
 _REJECTED_TOLD_HZ = 0.2
+
+
+class _Counts(NamedTuple):
+    """What a report tells the new ones of, since the start."""
+
+    frames: int = 0
+    rejected: int = 0
+    lost: int = 0
+    untold: int = 0
+    source_changes: int = 0
+
+    def since(self, before: _Counts) -> _Counts:
+        return _Counts(*map(sub, self, before))
 
 
 class ReconstructionNode(Node):
@@ -92,7 +107,7 @@ class ReconstructionNode(Node):
         self._rejected: Counter[str] = Counter()
         self._rejected_due: defaultdict[str, RateLimit] = defaultdict(lambda: RateLimit(_REJECTED_TOLD_HZ))
         self._durations_s: deque[float] = deque(maxlen=1000)
-        self._reported = (time.monotonic(), 0, 0, 0, 0, 0)
+        self._reported, self._reported_s = _Counts(), time.monotonic()
         self._pace = Pace()
 
         self._look_for_subscribers()
@@ -269,50 +284,54 @@ class ReconstructionNode(Node):
 
     def _report(self) -> Report:
         now_s = time.monotonic()
-        rejected = self._rejected.total()
-        changes = self._pipeline.source_changes
-        before_s, frames, rejected_before, lost_before, untold_before, changes_before = self._reported
-        self._reported = (now_s, self._frames, rejected, self._pipeline.lost, self._untold, changes)
-        new_frames, new_rejected = self._frames - frames, rejected - rejected_before
-        new_lost, new_untold = self._pipeline.lost - lost_before, self._untold - untold_before
-        rate_hz = new_frames / max(now_s - before_s, 1e-9)
-        if new_frames:
-            self._pace.step(now_s, new_frames)
+        counts = _Counts(
+            self._frames, self._rejected.total(), self._pipeline.lost, self._untold, self._pipeline.source_changes
+        )
+        new, passed_s = counts.since(self._reported), now_s - self._reported_s
+        self._reported, self._reported_s = counts, now_s
+        if new.frames:
+            self._pace.step(now_s, new.frames)
+        rate_hz = new.frames / max(passed_s, 1e-9)
         durations_s = list(self._durations_s)
         self._durations_s.clear()
+        level, words = self._judge(new, rate_hz, now_s)
         values = {
             "rate_hz": rate_hz,
-            "frames": self._frames,
-            "lost": self._pipeline.lost,
-            "source_changes": changes,
+            "frames": counts.frames,
+            "lost": counts.lost,
+            "source_changes": counts.source_changes,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.repeated": self._rejected["repeated"],
             "rejected.bad_stamp": self._rejected["bad_stamp"],
             "rejected.bad_baseline": self._rejected["bad_baseline"],
-            "not_published": self._untold,
+            "not_published": counts.untold,
             "not_used": self._unused,
             "baseline": "subtracted" if self._pipeline.subtracts else "none",
             "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
         }
-        if new_rejected:
-            words = counted(new_rejected, "message dropped that does not fit", "messages dropped that do not fit")
-            return WARN, f"{words}, see the log", values
+        return level, words, values
+
+    def _judge(self, new: _Counts, rate_hz: float, now_s: float) -> tuple[int, str]:
+        """Level and sentence for what is new since the last report; of several warnings the first cause."""
+        if new.rejected:
+            words = counted(new.rejected, "message dropped that does not fit", "messages dropped that do not fit")
+            return WARN, f"{words}, see the log"
         # Of a slow board's frames none may fall into the time since the last report.
-        if not new_frames and self._pace.is_silent(now_s):
-            return WARN, "no samples", values
-        if changes > changes_before:
+        if not new.frames and self._pace.is_silent(now_s):
+            return WARN, "no samples"
+        if new.source_changes > 0:
             words = "frames of two sources come in turn, and each change is taken for another board: end all but one"
-            return WARN, f"{words} that publishes {self.resolve_topic_name('samples')}", values
+            return WARN, f"{words} that publishes {self.resolve_topic_name('samples')}"
         # What came after all was counted before.
-        if new_lost > 0:
-            words = counted(new_lost, "frame lost before it came here", "frames lost before they came here")
-            return WARN, f"{words}, {rate_hz:.0f} frames/s", values
-        if new_untold:
+        if new.lost > 0:
+            words = counted(new.lost, "frame lost before it came here", "frames lost before they came here")
+            return WARN, f"{words}, {rate_hz:.0f} frames/s"
+        if new.untold:
             left_out = "contact left out because its frame", "contacts left out because their frames"
-            words = f"{counted(new_untold, *left_out)} came late, {rate_hz:.0f} frames/s"
-            return WARN, f"{words}: this machine is too slow or too busy (acts doctor tells)", values
-        return OK, f"{rate_hz:.0f} frames/s", values
+            words = f"{counted(new.untold, *left_out)} came late, {rate_hz:.0f} frames/s"
+            return WARN, f"{words}: this machine is too slow or too busy (acts doctor tells)"
+        return OK, f"{rate_hz:.0f} frames/s"
 
 
 SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
