@@ -27,10 +27,11 @@ from acts_core.sampling.registry import (
     check_names,
     frame_size,
 )
-from acts_core.sampling.sampler import Sampler, SamplingConfig, measure_in
+from acts_core.sampling.sampler import MEASUREMENT_US, Sampler, SamplingConfig, measure_in
 
 __all__ = [
     "BOARD_OWN_SETTINGS",
+    "MEASUREMENT_US",
     "NEIGHBOURS",
     "OWN_SETTINGS",
     "REPEATING",

@@ -20,6 +20,9 @@ from acts_core.sampling.basis import CommonSettings, Measure, OwnSetting, Sample
 from acts_core.sampling.registry import OWN_SETTINGS, SCHEMES, check_frame, frame_size
 from acts_core.settings import setting, validate
 
+MEASUREMENT_US = 17.877
+"""Time of one measurement on the paper's board (55,936 samples per second) [us]."""
+
 
 def _quota(own: OwnSetting) -> property:
     return property(lambda config: config.own(own), doc=own.description)

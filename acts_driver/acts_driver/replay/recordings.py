@@ -18,10 +18,15 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, npz_names, read_npz
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import REPEATING, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
-
-MEASUREMENT_US = 17.877
-"""Time of one measurement on the paper's board (55,936 samples per second) [us]."""
+from acts_core.sampling import (
+    MEASUREMENT_US,
+    REPEATING,
+    SCHEME_NUMBERS,
+    Sampler,
+    SamplingConfig,
+    SkinMap,
+    measure_in,
+)
 
 BOARD_RATE_HZ = 1000.0
 """Frames per second at which recorded full frames are sampled unless something else is asked."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.sampling import MEASUREMENT_US
 from acts_driver.selftest.findings import Finding, Level, Thresholds
 from acts_driver.selftest.record import FrameRecord
 from acts_driver.stream import ClockFilter
@@ -144,7 +145,7 @@ def _judge_clock(timing: Timing, thresholds: Thresholds) -> list[Finding]:
             _item(
                 low <= timing.taxel_us <= high,
                 "time per taxel",
-                f"{timing.taxel_us:.2f} us (published board: 17.9)",
+                f"{timing.taxel_us:.2f} us (published board: {MEASUREMENT_US:.1f})",
                 f"usual are {low:g} to {high:g} us: check the processor's clock and the ADC's settings",
             )
         )

@@ -12,11 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.sampling import SCHEMES, SamplingConfig, SkinMap
+from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig, SkinMap
 from acts_tools.firmware.board_sampler import sampler_of
-
-SAMPLE_US = 17.877
-"""Published time of one measurement [us]: 55,936 per second."""
 
 FOLLOW_COUNTS = 15
 """Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
@@ -45,7 +42,7 @@ class Frame:
 
 def frame_rate_hz(m: int) -> float:
     """Frames a second of a board that measures `m` taxels in each."""
-    return 1e6 / (m * SAMPLE_US)
+    return 1e6 / (m * MEASUREMENT_US)
 
 
 def frames_of(
@@ -87,7 +84,7 @@ def frames_of(
         scheme=scheme, rows=rows, cols=cols, m=m, threshold_counts=threshold_counts, seed=seed, **own
     )
     sampler = sampler_of(config, noise_counts, skin_map)
-    sample_s = 1e-6 * SAMPLE_US
+    sample_s = 1e-6 * MEASUREMENT_US
     duration_s = m * sample_s
     for number in range(int((len(frames) - 1) / rate_hz / duration_s)):
         begin_s = number * duration_s

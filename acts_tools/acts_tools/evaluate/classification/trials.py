@@ -18,12 +18,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.sampling import MEASUREMENT_US
 from acts_recon.fusion import known_noise
 from acts_recon.objects import ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_sim.pressing import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
 from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, Contender, contenders
-from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.firmware.board_sampler import BoardSampler
 from acts_tools.percentiles import percentiles
@@ -43,7 +43,7 @@ _LISTEN_S = 0.025
 
 def _frame_period_s(m: int) -> float:
     """Time between frames [s]: a millisecond, or that of `m` measurements if it is longer."""
-    return max(1e-3, m * SAMPLE_US * 1e-6)
+    return max(1e-3, m * MEASUREMENT_US * 1e-6)
 
 
 def answers(
@@ -76,7 +76,7 @@ def answers(
         Classes; None where no contact was detected.
     """
     m = contender.sampling.m
-    period_s, step_s = _frame_period_s(m), SAMPLE_US * 1e-6
+    period_s, step_s = _frame_period_s(m), MEASUREMENT_US * 1e-6
     run_up_s = contact_s if run_up_s is None else run_up_s
     contender.reset()
     sampler = BoardSampler(contender.sampling)

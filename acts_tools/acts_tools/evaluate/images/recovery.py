@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.sampling import SamplingConfig
+from acts_core.sampling import MEASUREMENT_US, SamplingConfig
 from acts_core.settings import SettingValue, setting, validate
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
@@ -25,7 +25,6 @@ from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
 from acts_tools.evaluate.images.truth import ContactStart, contact_starts, interpolate
-from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import mean
 from acts_tools.firmware.board_sampler import sampler_of
 from acts_tools.percentiles import percentiles
@@ -71,7 +70,7 @@ class Task:
     method: str
     rate_hz: float = setting(1000.0, "largest frame rate; frames of many taxels take longer", minimum=0.1)
     touch_counts: int = setting(50, "a taxel above is pressed", minimum=0, maximum=COUNT_MAX)
-    sample_us: float = setting(SAMPLE_US, "time of one measurement", minimum=0.01)
+    sample_us: float = setting(MEASUREMENT_US, "time of one measurement", minimum=0.01)
     noise_counts: float = setting(
         0.0, "standard deviation of noise that is added to every measurement", minimum=0, maximum=100
     )

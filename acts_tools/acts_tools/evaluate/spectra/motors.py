@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.sampling import MEASUREMENT_US
 from acts_core.skin import ForceResponse
 from acts_recon.spectra import Spectrum, SpectrumAnalyser
 from acts_sim.pressing import FoamConfig, skin_of
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
-from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, SAMPLE_US, TOUCH_COUNTS, frame_rate_hz, frames_of
+from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, TOUCH_COUNTS, frame_rate_hz, frames_of
 
 Array = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ _MIDDLE_M = 0.03
 
 ONE_TAXEL_M = 55
 """Samples a frame where all are of one taxel: a thousand frames a second."""
-ONE_TAXEL_RATE_HZ = 1e6 / SAMPLE_US
+ONE_TAXEL_RATE_HZ = 1e6 / MEASUREMENT_US
 _TONE_RATE_HZ = 500e3
 # The smallest array that has frames of so many samples.
 _TONE_SIDE = 8

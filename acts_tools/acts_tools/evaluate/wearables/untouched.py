@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame, Scheme
-from acts_core.sampling import SamplingConfig
+from acts_core.sampling import MEASUREMENT_US, SamplingConfig
 from acts_core.skin import layout
 from acts_driver.baseline import BaselineConfig, BaselineTracker
 from acts_sim.wearables import RestingSkin
-from acts_tools.evaluate.scene_frames import SAMPLE_US, Frame
+from acts_tools.evaluate.scene_frames import Frame
 from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
 from acts_tools.firmware.board_sampler import sampler_of
 
@@ -73,7 +73,7 @@ def watch_untouched(
     config = SamplingConfig(scheme=SCHEME, m=m, threshold_counts=THRESHOLD_COUNTS, seed=int(rng.integers(1, 2**31)))
     sampler = sampler_of(config, noise_counts, watcher.skin_map)
     tracker = BaselineTracker(rows, cols, BaselineConfig())
-    sample_s = 1e-6 * SAMPLE_US
+    sample_s = 1e-6 * MEASUREMENT_US
     duration_s = m * sample_s
     per_second = int(1 / duration_s)
     told, largest = 0, 0.0

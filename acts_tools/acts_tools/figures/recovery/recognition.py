@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from acts_core.sampling import MEASUREMENT_US
 from acts_recon.fusion import known_noise
 from acts_sim.pressing import OBJECTS
 from acts_tools.evaluate.classification.contenders import ours, papers
 from acts_tools.evaluate.classification.trials import MIDDLE_MS, Trials, answers, arm_of, press_of
-from acts_tools.evaluate.scene_frames import SAMPLE_US
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData
@@ -139,7 +139,7 @@ def _published_over_m(data: PublishedData, panels: Sequence[Panel]) -> dict[str,
 
 def running_mean(right: Sequence[int], m: int, presses: int) -> tuple[list[float], list[float]]:
     """Time [ms], and accuracy as the paper has it: mean over all answers since contact; from the first answer on."""
-    first = int(np.ceil(m * SAMPLE_US * 1e-3))
+    first = int(np.ceil(m * MEASUREMENT_US * 1e-3))
     shares = np.array(right[first - 1 :]) / presses
     times = np.arange(first, len(right) + 1, dtype=float)
     return times.tolist(), (np.cumsum(shares) / np.arange(1, len(shares) + 1)).tolist()
@@ -161,7 +161,7 @@ def _measure_over_time(run: Run) -> list[Panel]:
         for scheme, by in ((OUR_KEY, OURS), ("adaptive", SAME)):
             right = found["right"].get(f"{scheme} {m}")
             if right is not None and (by == OURS or m == over_time[0]):
-                first = int(np.ceil(m * SAMPLE_US * 1e-3))
+                first = int(np.ceil(m * MEASUREMENT_US * 1e-3))
                 x = [float(ms) for ms in range(first, LAST_MS + 1)]
                 label = f"{'ours' if by == OURS else 'paper, adaptive'}, M = {m}"
                 last.append(Curve(label, x, [one / presses for one in right[first - 1 :]], by, f"C{number}"))
