@@ -9,6 +9,7 @@ other packages where a taxel lies and what it reads. `RegionContact` is what a p
 """
 
 from acts_core.skin.force import ForceResponse, MeasuredForceResponse, Response, force_table
+from acts_core.skin.layout_file import MAX_PATCHES
 from acts_core.skin.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
 from acts_core.skin.region_contact import RegionContact, Vector
 from acts_core.skin.skin_patch import SkinPatch
@@ -16,6 +17,7 @@ from acts_core.skin.tracked_blob import TrackedBlob
 
 __all__ = [
     "LAYOUTS",
+    "MAX_PATCHES",
     "NO_PATCH",
     "ForceResponse",
     "Layout",

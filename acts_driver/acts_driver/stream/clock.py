@@ -15,11 +15,12 @@ from dataclasses import dataclass
 
 from acts_driver.stream.envelope import LowerEnvelope
 
+DRIFT_MAX = 500e-6
+"""Largest drift of a quartz, faulty ones included: 500 ppm."""
+
 # Time over which offset and drift are estimated, and after which drift is [ns].
 _WINDOW_NS = 10_000_000_000
 _DRIFT_FROM_NS = 2_000_000_000
-# Largest drift of a quartz, faulty ones included: 500 ppm.
-_DRIFT_MAX = 500e-6
 # Difference from the expected delay that means a clock has jumped, and how long frames must be late by that much, since
 # a stall passes [ns].
 _JUMP_NS = 50_000_000
@@ -184,7 +185,7 @@ class ClockFilter:
         self._origin_delay_ns = arrival_ns - self._origin_board_ns
         self._late_since_ns = None
         self.delay_ns = 0
-        self._envelope = LowerEnvelope(_WINDOW_NS, _DRIFT_FROM_NS, _DRIFT_MAX, (0, 0))
+        self._envelope = LowerEnvelope(_WINDOW_NS, _DRIFT_FROM_NS, DRIFT_MAX, (0, 0))
         return self._envelope
 
     def _restart(self, board_us: int, arrival_ns: int) -> LowerEnvelope:

@@ -8,13 +8,14 @@ from __future__ import annotations
 import threading
 from collections import deque
 
+from acts_driver.stream.clock import DRIFT_MAX
+
 _MODULUS = 1 << 32
 _HALF = 1 << 31
 _BIN_NS = 100_000_000
 _BINS = 10
 _RECENT = 64
 _CLOCKS_AGREE_NS = 50_000_000
-_DRIFT_MAX = 500e-6
 
 
 class StreamStatistics:
@@ -135,7 +136,7 @@ class StreamStatistics:
         """Whether, after a reconnection, the board's clock tells that the board was without power meanwhile."""
         passed_ns = arrival_ns - self._measured_ns
         difference_ns = (board_us - self._board_us) * 1000 - passed_ns
-        return abs(difference_ns) > _CLOCKS_AGREE_NS + _DRIFT_MAX * passed_ns
+        return abs(difference_ns) > _CLOCKS_AGREE_NS + DRIFT_MAX * passed_ns
 
     def _count_rate(self, arrival_ns: int) -> None:
         number = arrival_ns // _BIN_NS

@@ -28,6 +28,10 @@ _STAMP = "iII"
 """Seconds, nanoseconds, and the length of frame_id with its terminating zero."""
 _STAMP_BYTES = struct.calcsize(f"<{_STAMP}")
 _STAMPS = {order: struct.Struct(order + _STAMP) for order in _ORDERS.values()}
+LENGTHS = {order: struct.Struct(f"{order}I") for order in _ORDERS.values()}
+"""By byte order: the length that a string or a sequence begins with."""
+COUNTS = {order: struct.Struct(f"{order}II") for order in _ORDERS.values()}
+"""By byte order: the number of a frame, and how many entries of it follow."""
 # Of acts_msgs/Contact, after frame_id: each field's `struct` format and size [bytes].
 _CONTACT_FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "I?dddfffHfdddfff"]
 # Cached layouts: one for each frame_id, or length of it.

@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from acts_core.errors import PacketError
 from acts_core.skin import TrackedBlob
 from acts_ros.messages.cdr import (
+    COUNTS,
     ENCAPSULATION_BYTES,
+    LENGTHS,
     ContactFields,
     contact_parts,
     header_bytes,
@@ -27,8 +29,6 @@ from acts_ros.messages.cdr import (
 
 # Of acts_msgs/TrackedContact, which has the fields of `TrackedBlob`: each field's `struct` format and size [bytes].
 _FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "IBfddddddfffHffddddddfff"]
-_COUNTS = {order: struct.Struct(f"{order}II") for order in "<>"}
-_LENGTHS = {order: struct.Struct(f"{order}I") for order in "<>"}
 _LAYOUTS_KEPT = 256
 
 
@@ -95,7 +95,7 @@ def read_contacts(data: bytes) -> ContactsFields:
     contacts = []
     try:
         at += -at % 4
-        sequence, count = _COUNTS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
+        sequence, count = COUNTS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
         at += 8
         for _ in range(count):
             layout = _tracked(order, at % 8)
@@ -122,7 +122,7 @@ def write_series(series: SeriesFields) -> bytes:
     parts = [write_contact(newest)]
     # A contact ends with a number of four bytes, and each column is made of them: nothing is padded.
     for column in columns:
-        parts += [_LENGTHS["<"].pack(len(column)), column.astype(column.dtype.newbyteorder("<"), copy=False).tobytes()]
+        parts += [LENGTHS["<"].pack(len(column)), column.astype(column.dtype.newbyteorder("<"), copy=False).tobytes()]
     return b"".join(parts)
 
 
@@ -139,7 +139,7 @@ def read_series(data: bytes) -> SeriesFields:
     columns = []
     for kind in ("f4", "f4", "f4", "u4"):
         try:
-            (count,) = _LENGTHS[order].unpack_from(data, begin)
+            (count,) = LENGTHS[order].unpack_from(data, begin)
             columns.append(np.frombuffer(data, np.dtype(order + kind), count, begin + 4))
         except (struct.error, ValueError) as error:
             raise PacketError(f"series of {len(data)} bytes cannot be read: {error}") from error

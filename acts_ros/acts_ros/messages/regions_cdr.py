@@ -12,12 +12,10 @@ from typing import NamedTuple
 
 from acts_core.errors import PacketError
 from acts_core.skin import RegionContact
-from acts_ros.messages.cdr import ENCAPSULATION_BYTES, header_bytes, header_parts, padded
+from acts_ros.messages.cdr import COUNTS, ENCAPSULATION_BYTES, LENGTHS, header_bytes, header_parts, padded
 
 # Of acts_msgs/RegionContact, after its two names: each field's `struct` format and size [bytes].
 _FIELDS = [(kind, struct.calcsize(f"<{kind}")) for kind in "Hfddddddfffffdddf?"]
-_LENGTHS = {order: struct.Struct(f"{order}I") for order in "<>"}
-_COUNTS = {order: struct.Struct(f"{order}II") for order in "<>"}
 # Cached layouts: one for each skin whose regions are written.
 _SKINS_KEPT = 64
 
@@ -68,7 +66,7 @@ def read_regions(data: bytes) -> RegionsFields:
     regions = []
     try:
         at += -at % 4
-        sequence, count = _COUNTS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
+        sequence, count = COUNTS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
         at += 8
         for _ in range(count):
             name, at = _string(data, at, order)
@@ -92,7 +90,7 @@ def read_regions(data: bytes) -> RegionsFields:
 def _string(data: bytes, at: int, order: str) -> tuple[str, int]:
     """The string at an offset, and the offset of its end."""
     at += -at % 4
-    (length,) = _LENGTHS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
+    (length,) = LENGTHS[order].unpack_from(data, ENCAPSULATION_BYTES + at)
     begin = ENCAPSULATION_BYTES + at + 4
     if not 1 <= length <= len(data) - begin:
         raise PacketError(f"regions of {len(data)} bytes cannot be read: a name has {length}")

@@ -10,10 +10,14 @@ from collections.abc import Sequence
 
 from acts_sim.dynamixel.motor import Motor
 
-# Of every joint: those of a finger of the LEAP hand about its root, with the gearbox.
-_INERTIA_KG_M2 = 1e-3
-_DAMPING_NM_S = 0.03
-_FRICTION_NM = 0.01
+JOINT_INERTIA_KG_M2 = 1e-3
+"""Of every joint: that of a finger of the LEAP hand about its root, with the gearbox."""
+
+JOINT_DAMPING_NM_S = 0.03
+"""Torque against the motion of every joint per speed, of its gearbox [N m s/rad]."""
+
+JOINT_FRICTION_NM = 0.01
+"""Torque against the motion of every joint at any speed."""
 
 
 class FreeJoints:
@@ -47,8 +51,10 @@ class FreeJoints:
                 shaft.velocity_rad_s = 0.0
                 continue
             # Implicit Euler for both kinds of friction, which is stable for any step.
-            speed = (shaft.velocity_rad_s * _INERTIA_KG_M2 + torque * dt_s) / (_INERTIA_KG_M2 + _DAMPING_NM_S * dt_s)
-            brake = _FRICTION_NM * dt_s / _INERTIA_KG_M2
+            speed = (shaft.velocity_rad_s * JOINT_INERTIA_KG_M2 + torque * dt_s) / (
+                JOINT_INERTIA_KG_M2 + JOINT_DAMPING_NM_S * dt_s
+            )
+            brake = JOINT_FRICTION_NM * dt_s / JOINT_INERTIA_KG_M2
             speed = math.copysign(max(abs(speed) - brake, 0.0), speed)
             low, high = self._limits_rad[index]
             position = shaft.position_rad + speed * dt_s

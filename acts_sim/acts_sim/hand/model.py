@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_sim.dynamixel import JOINT_DAMPING_NM_S, JOINT_FRICTION_NM, JOINT_INERTIA_KG_M2
 from acts_sim.hand.kinematics import FINGERS, LINKS, PALM, PALM_MASS_KG, SOLIDS, Solid, frames
 from acts_sim.hand.objects import HeldObject, Piece
 from acts_sim.hand.solid_kernels import BOX, CAPSULE, CYLINDER
@@ -22,11 +23,6 @@ TIP = "tip"
 
 PARKED_M = (0.0, 0.0, 2.0)
 """Position of an unused tip, out of reach, in the palm's frame [m]."""
-
-# For every joint: a finger about its root, with the gearbox, as in acts_sim/dynamixel/joints.py.
-_ARMATURE_KG_M2 = 1e-3
-_DAMPING_NM_S = 0.03
-_FRICTION_NM = 0.01
 
 # Pairs of kinds of solids that collide.
 _KINDS = ("object", "palm", "root", "finger", "thumb")
@@ -107,9 +103,9 @@ def _document(thing: HeldObject | None, timestep_s: float) -> ElementTree.Elemen
             name=link.joint,
             axis="0 0 -1",
             range=_text(link.limits_rad),
-            armature=str(_ARMATURE_KG_M2),
-            damping=str(_DAMPING_NM_S),
-            frictionloss=str(_FRICTION_NM),
+            armature=str(JOINT_INERTIA_KG_M2),
+            damping=str(JOINT_DAMPING_NM_S),
+            frictionloss=str(JOINT_FRICTION_NM),
         )
     for solid in SOLIDS:
         of_link = sum(other.link == solid.link for other in SOLIDS)

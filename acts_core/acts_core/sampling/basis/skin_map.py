@@ -18,10 +18,7 @@ import numpy as np
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ArrayError
-from acts_core.skin import NO_PATCH, Layout
-
-MAX_PATCHES = 16
-"""A map has four bits for the patch of a taxel."""
+from acts_core.skin import MAX_PATCHES, NO_PATCH, Layout
 
 _HEAD = struct.Struct("<BBBB")
 _PATCH_SHIFT = 12
