@@ -95,7 +95,7 @@ class Layout:
         return values.ravel()[self.taxels]
 
     def matrix(self, picture: ArrayLike) -> NDArray[np.generic]:
-        """The inverse of `picture`."""
+        """The inverse of `picture`: from shape (rows, cols) to shape (matrix_rows, matrix_cols)."""
         values = np.asarray(picture)
         self._check(values.shape, (self.rows, self.cols), "picture")
         return values.ravel()[self.places].reshape(self.matrix_rows, self.matrix_cols)

@@ -23,13 +23,13 @@ _FIRST_ADDRESS_PIN = 33
 
 @dataclass(frozen=True, eq=False)
 class Touched:
-    """How each taxel responds; arrays of shape (rows, cols).
+    """How each taxel responds.
 
     Attributes
     ----------
-    response_counts : np.ndarray [dtype=float64]
+    response_counts : np.ndarray [shape=(rows, cols), dtype=float64]
         The third largest rise over the baseline; 0 for none.
-    responds : np.ndarray [dtype=bool]
+    responds : np.ndarray [shape=(rows, cols), dtype=bool]
         Whether that is a response.
     same_rows, same_cols : list of tuple of int
         Lines that respond as one.

@@ -20,15 +20,15 @@ _TOP_CUT = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Untouched:
-    """What each taxel reads untouched; arrays of shape (rows, cols).
+    """What each taxel reads untouched.
 
     Attributes
     ----------
-    readings : np.ndarray [dtype=int64]
+    readings : np.ndarray [shape=(rows, cols), dtype=int64]
         How often it was measured.
-    baseline_counts : np.ndarray [dtype=float64]
+    baseline_counts : np.ndarray [shape=(rows, cols), dtype=float64]
         Median reading; NaN where it was never measured.
-    noise_counts : np.ndarray [dtype=float64]
+    noise_counts : np.ndarray [shape=(rows, cols), dtype=float64]
         Standard deviation about it, robust; NaN likewise.
     """
 
@@ -42,6 +42,16 @@ def noise_of(counts: NDArray[np.float64]) -> float:
 
     The root mean square distance from the median, of the half of the readings above it or of that below: the larger
     one, since clipping makes one of them small. The farthest 2 % are left out.
+
+    Parameters
+    ----------
+    counts : np.ndarray [shape=(n,), dtype=float64]
+        Of one taxel.
+
+    Returns
+    -------
+    float
+        [counts]; 0 for fewer than two readings.
     """
     ordered = np.sort(counts)
     half = len(ordered) // 2

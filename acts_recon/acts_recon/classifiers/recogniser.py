@@ -18,8 +18,7 @@ from acts_recon.objects import Classification, ObjectLibrary
 class ObjectRecogniser(ABC):
     """Tells which object presses, frame after frame.
 
-    Every frame is to be given, after its recovery, to either `update` or `step`: samples that fit the array, the end of
-    the last measurement on any clock, and how long all of them took [s].
+    Every frame is to be given, after its recovery, to either `update` or `step`.
 
     Parameters
     ----------
@@ -48,10 +47,23 @@ class ObjectRecogniser(ABC):
 
     @abstractmethod
     def update(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> None:
-        """Update by a frame without classifying it: fast."""
+        """Update by a frame without classifying it: fast. The parameters are those of `step`."""
 
     @abstractmethod
     def step(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float
     ) -> Classification:
-        """Update by a frame and classify; the result's residuals are overwritten by the next."""
+        """Update by a frame and classify it.
+
+        Parameters
+        ----------
+        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+            Samples that fit the array, as `Method.step` has taken them.
+        end_s, duration_s : float
+            When the last measurement ended, on any clock, and how long all of them took [s].
+
+        Returns
+        -------
+        Classification
+            Its `residuals` are overwritten by the next frame: copy what is to be kept.
+        """

@@ -20,7 +20,7 @@ LONGEST_PAUSE_S = 0.5
 
 
 def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
-    """Raise `ArrayError` unless these are two rows of uint16, as long as one another and not empty."""
+    """Raise `ArrayError` unless these are two rows of uint16, shape (m,), as long as one another and not empty."""
     # Lists come from callers without types.
     if not (isinstance(indices, np.ndarray) and isinstance(counts, np.ndarray)):
         kinds = f"indices {type(indices).__name__} and counts {type(counts).__name__}"

@@ -56,7 +56,7 @@ class JointMotion:
 
     @classmethod
     def still(cls, q_rad: NDArray[np.float64]) -> JointMotion:
-        """An arm at rest."""
+        """An arm at rest at angles [rad], shape (6,)."""
         return cls(np.asarray(q_rad, dtype=np.float64), np.zeros(6), np.zeros(6))
 
     def is_plausible(self) -> bool:

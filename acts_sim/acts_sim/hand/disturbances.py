@@ -38,7 +38,15 @@ class Disturbances:
         self._shaken_s = self._shake_s = 0.0
 
     def pull(self, force_n: NDArray[np.float64], ramp_s: float) -> None:
-        """Pull the object with a force that rises within `ramp_s` and then is constant."""
+        """Pull the object with a force that rises within `ramp_s` and then is constant.
+
+        Parameters
+        ----------
+        force_n : np.ndarray [shape=(3,), dtype=float64]
+            In the palm's frame [N].
+        ramp_s : float
+            [s]
+        """
         self._goal_n = force_n.copy()
         self._rate_n_s = float(np.linalg.norm(self._goal_n - self.load_n)) / max(ramp_s, 1e-6)
 
@@ -47,7 +55,14 @@ class Disturbances:
         self.pull(times_weight * self._weight_n * self._down, ramp_s)
 
     def shake(self, direction: NDArray[np.float64], amplitude_m: float, frequency_hz: float, duration_s: float) -> None:
-        """Shake the whole hand along a direction (a sine)."""
+        """Shake the whole hand along a direction (a sine).
+
+        Parameters
+        ----------
+        direction : np.ndarray [shape=(3,), dtype=float64]
+            In the palm's frame, of any length but 0.
+        amplitude_m, frequency_hz, duration_s : float
+        """
         self._shake_direction = direction / np.linalg.norm(direction)
         self._amplitude_m, self._omega_rad_s = amplitude_m, math.tau * frequency_hz
         self._shaken_s, self._shake_s = 0.0, duration_s

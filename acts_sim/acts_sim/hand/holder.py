@@ -51,7 +51,15 @@ class Holder:
         return self._strength
 
     def hold(self, position_m: NDArray[np.float64], quaternion: NDArray[np.float64]) -> None:
-        """Hold the object at a pose in the palm's frame; orientation as w, x, y, z."""
+        """Hold the object at a pose.
+
+        Parameters
+        ----------
+        position_m : np.ndarray [shape=(3,), dtype=float64]
+            In the palm's frame [m].
+        quaternion : np.ndarray [shape=(4,), dtype=float64]
+            Orientation in the palm's frame: w, x, y, z.
+        """
         self._position = self._start = self._end = position_m.copy()
         self._quaternion = self._start_quaternion = quaternion.copy()
         self._turn = np.zeros(3)
@@ -67,7 +75,17 @@ class Holder:
         self._strength = 0.0
 
     def move(self, by_m: NDArray[np.float64], turn_rad: NDArray[np.float64], duration_s: float) -> None:
-        """Move the pose smoothly by a translation [m] and a rotation vector [rad] within a time [s]."""
+        """Move the pose smoothly.
+
+        Parameters
+        ----------
+        by_m : np.ndarray [shape=(3,), dtype=float64]
+            Translation in the palm's frame [m].
+        turn_rad : np.ndarray [shape=(3,), dtype=float64]
+            Rotation vector in the palm's frame [rad].
+        duration_s : float
+            Time that it takes [s].
+        """
         self._start, self._end = self._position, self._position + by_m
         self._start_quaternion, self._turn = self._quaternion, turn_rad.copy()
         self._elapsed_s, self._duration_s = 0.0, max(duration_s, 1e-3)

@@ -102,8 +102,12 @@ class Bodies(NamedTuple):
 
     Attributes
     ----------
-    pos, mat, velocity, centre, root_centre : np.ndarray
-        MuJoCo's xpos, xmat, cvel, xipos and subtree_com.
+    pos, centre, root_centre : np.ndarray [shape=(bodies, 3), dtype=float64]
+        MuJoCo's xpos, xipos and subtree_com [m].
+    mat : np.ndarray [shape=(bodies, 9), dtype=float64]
+        MuJoCo's xmat.
+    velocity : np.ndarray [shape=(bodies, 6), dtype=float64]
+        MuJoCo's cvel: angular [rad/s], then linear [m/s].
     root_of : np.ndarray [shape=(bodies,), dtype=int64]
         MuJoCo's body_rootid.
     wrench : np.ndarray [shape=(bodies, 6), dtype=float64]

@@ -104,7 +104,19 @@ class PressingArm:
         return self.model.counts(self.model.forces_n(self.objects[number], self.press(number)))
 
     def held_frames(self, presses: int) -> tuple[NDArray[np.uint16], list[str]]:
-        """Full frames from the middle of `presses` presses of every object, and the name of the object in each."""
+        """Full frames from the middle of presses of every object.
+
+        Parameters
+        ----------
+        presses : int
+            Of each object.
+
+        Returns
+        -------
+        frames : np.ndarray [shape=(n, rows, cols), dtype=uint16]
+        names : list of str
+            The object in each.
+        """
         frames = [self.held_frame(number) for number in range(len(self.objects)) for _ in range(presses)]
         return np.stack(frames), [item.name for item in self.objects for _ in range(presses)]
 

@@ -97,7 +97,7 @@ class SphereBalancingState:
 
     Attributes
     ----------
-    rest_rad : np.ndarray or None
+    rest_rad : np.ndarray [shape=(joints,), dtype=float64] or None
         Goals of the joints when the sphere was last at the palm's centre, at first when the hand began to hold [rad].
     ball : Ball or None
         The sphere, in the frame of the hand's base.
