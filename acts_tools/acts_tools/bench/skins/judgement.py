@@ -9,11 +9,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from acts_core.words import counted
+from acts_tools.bench.report import Report
 from acts_tools.bench.rigs.memory import GROWTH_MAX_MB_PER_H
 from acts_tools.bench.runner import OTHERS_WARNING_PERCENT
 from acts_tools.bench.skins.processes import BENCH, RATE_HZ
-
-Report = Mapping[str, Any]
 
 ONE_CPU_PERCENT = 20.0
 ONE_MEDIAN_MS = 0.35

@@ -5,14 +5,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from acts_core.words import counted
-from acts_tools.bench.report import surroundings
+from acts_tools.bench.report import Report, surroundings
 from acts_tools.bench.result import shortened
 
-Report = Mapping[str, Any]
 Rows = Sequence[Sequence[str]]
 
 _LATENCIES = {"median": "median [ms]", "p99": "99 %", "p999": "99.9 %", "max": "largest"}
