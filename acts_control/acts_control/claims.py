@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Something that moves, as this process's own among the programs of this machine, whoever runs them."""
+"""Claims: of something that moves, no two programs of a machine have control at a time, whoever runs them."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _RETRY_S = 0.01
 
 
 class ClaimedError(ActsError):
-    """Another program has it; the message is that program."""
+    """Another program has the claim; the message names that program."""
 
 
 class MachineClaim:
-    """Taken from now on, until `close` or the process's end, however it ends.
+    """A claim of this process, held from its construction until `close`, or until the process ends, however it ends.
 
     A socket of an abstract name stands for the thing: Linux gives a name to one process of a machine (or container with
     a network of its own), tells the others who has it, and leaves nothing behind.
@@ -70,7 +70,7 @@ class MachineClaim:
 
 
 def _holder(address: bytes) -> int:
-    """The process that has it, or `_UNKNOWN`."""
+    """The process that has the claim, or `_UNKNOWN`."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as question:
         question.setblocking(False)
         try:

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What registries share: looking a thing up by its name, and enumerations of which the members come out of one."""
+"""What registries share: looking a thing up by its name, and enumerations whose members are those of a registry."""
 
 from __future__ import annotations
 

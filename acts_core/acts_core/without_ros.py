@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Executables where pip has installed them with their packages, but nothing of ROS is there."""
+"""What executables do where pip has installed their packages and ROS is missing: they say so."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""YAML without the whole numbers that no message could show."""
+"""A loader of YAML that refuses whole numbers too long to be shown in a message."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""When a foot has made a step."""
+"""Settings: when a foot has made a step."""
 
 from __future__ import annotations
 

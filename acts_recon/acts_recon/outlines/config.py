@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Where the edge of a contact is taken to be, and how it may move."""
+"""Settings: where the edge of a contact is taken to be, and how it may move."""
 
 from __future__ import annotations
 

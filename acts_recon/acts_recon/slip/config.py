@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""When motion counts as slip."""
+"""Settings: when motion counts as slip."""
 
 from __future__ import annotations
 

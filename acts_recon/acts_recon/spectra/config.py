@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Which vibrations are looked for, and in how long a time."""
+"""Settings: which vibrations are looked for, and in how long a time."""
 
 from __future__ import annotations
 

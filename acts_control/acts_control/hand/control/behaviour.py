@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the loop of a hand asks where the joints are to go."""
+"""The interface of what decides where the joints of a hand go; the loop of the hand calls it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acts_control.hand.motors import HandReading
 
 
 class Behaviour(Protocol):
-    """What moves a hand instead of commands, from the loop's thread."""
+    """Moves a hand by itself, where no commands do. All calls come from the loop's thread."""
 
     def restart(self, *, recovered: bool) -> None:
         """The torque is on again, every joint holds where it is; `recovered`: after motors had failed or stopped."""

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Settings of Dynamixel motors, and which of them motors do not take."""
+"""Settings of Dynamixel motors; those that motors cannot take are refused."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The port of a hand as this program's own, whatever the others call it."""
+"""The claim of a hand's port: no second program opens it meanwhile, by whichever of its names."""
 
 from __future__ import annotations
 

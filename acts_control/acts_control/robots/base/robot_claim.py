@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A robot as this process's own among the programs of this machine, whoever runs them."""
+"""The claim of a robot: no second program of this machine controls it meanwhile, whoever runs that."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class RobotTakenError(RobotError):
 
 
 class RobotClaim:
-    """Taken from now on, until `close` or the process's end, however it ends; see `MachineClaim`.
+    """The claim of one robot, held from its construction until `close`; see `MachineClaim`.
 
     The robot itself refuses a second program too, but cannot say who the first one is, and takes the second as soon as
     the first has gone.
