@@ -200,10 +200,11 @@ class HandRig:
     def _switch_on(self, config: DynamixelConfig) -> None:
         """Set the motors up like `DynamixelHand`."""
         for motor, joint in zip(self.world.motors, LEAP_RIGHT.joints, strict=True):
+            p_gain, i_gain, d_gain = config.gains(joint)
             _write(motor, "operating_mode", _CURRENT_BASED_POSITION)
-            _write(motor, "position_p_gain", round(config.position_p_gain * joint.gain_scale))
-            _write(motor, "position_i_gain", config.position_i_gain)
-            _write(motor, "position_d_gain", round(config.position_d_gain * joint.gain_scale))
+            _write(motor, "position_p_gain", p_gain)
+            _write(motor, "position_i_gain", i_gain)
+            _write(motor, "position_d_gain", d_gain)
             _write(motor, "goal_current", config.max_current_ma)
             _write(motor, "torque_enable", 1)
 
