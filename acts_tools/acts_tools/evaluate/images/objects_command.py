@@ -21,11 +21,12 @@ from acts_sim.pressing import (
     object_named,
     press_over_time,
 )
-from acts_tools.arguments import at_least_one, simulated_taxels
+from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.evaluate.images.tasks import evaluate_all
+from acts_tools.evaluate.options import add_m
 from acts_tools.evaluate.picture import diagrams
 from acts_tools.output_file import require_picture
 
@@ -42,9 +43,7 @@ def add_parser(commands: Any) -> None:
         "method and linear interpolation, each with three sampling schemes, with a method of ours with tracking on "
         "the same frames, from first to last touch.",
     )
-    parser.add_argument(
-        "--m", nargs="+", type=simulated_taxels, default=list(_M), help="taxels per frame (default: %(default)s)"
-    )
+    add_m(parser, _M)
     parser.add_argument("--objects", nargs="+", default=list(OBJECTS), metavar="NAME", help="default: all 30")
     parser.add_argument("--ours", default=options.METHOD, **options.method_argument())
     parser.add_argument(

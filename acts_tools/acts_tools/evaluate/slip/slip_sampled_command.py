@@ -25,9 +25,9 @@ from acts_core.skin import Layout, SkinPatch, layout
 from acts_recon.fusion import known_noise
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
-from acts_tools.arguments import at_least_one, given_settings, real, simulated_taxels
+from acts_tools.arguments import at_least_one, given_settings, real
 from acts_tools.evaluate import report
-from acts_tools.evaluate.options import add_json
+from acts_tools.evaluate.options import add_json, add_m
 from acts_tools.firmware.board_sampler import BoardSampler
 
 _NOTICED_M = 0.0002
@@ -51,9 +51,7 @@ def add_parser(commands: Any) -> None:
         "without motion.",
     )
     parser.add_argument("--layout", default="leap_right", metavar="L", help="name or file (default: %(default)s)")
-    parser.add_argument(
-        "--m", type=simulated_taxels, nargs="+", default=[55, 128], help="taxels per frame (default: 55 128)"
-    )
+    add_m(parser, (55, 128))
     parser.add_argument(
         "--seeds",
         type=at_least_one,
