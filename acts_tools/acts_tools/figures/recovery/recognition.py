@@ -47,6 +47,32 @@ def _contenders(run: Run) -> list[tuple[str, int, bool]]:
     ]
 
 
+class _Tally:
+    """Answers of one contender, by the time since contact.
+
+    Parameters
+    ----------
+    objects : int
+    is_whole : bool
+        Whether all times are asked for, or only that of a held press.
+    """
+
+    def __init__(self, objects: int, is_whole: bool) -> None:
+        self.times_ms: list[float] = list(range(1, LAST_MS + 1)) if is_whole else [MIDDLE_MS]
+        self.right = np.zeros(len(self.times_ms), dtype=int)
+        self.matrices = np.zeros((len(WINDOWS_MS), objects, objects), dtype=int) if is_whole else None
+
+    def add(self, wanted: int, found: Sequence[int | None]) -> None:
+        """Count the answers to a press of the object `wanted`, one for each of `times_ms`."""
+        self.right += [answer == wanted for answer in found]
+        if self.matrices is None:
+            return
+        for matrix, ms in zip(self.matrices, WINDOWS_MS, strict=True):
+            answer = found[ms - 1]
+            if answer is not None:
+                matrix[wanted, answer] += 1
+
+
 def _measure_all(run: Run) -> dict[str, Any]:
     """Right answers by scheme, M and millisecond since contact, and confusion matrices at three times."""
     items = tuple(list(OBJECTS.values())[::5]) if run.fast else None
@@ -54,13 +80,9 @@ def _measure_all(run: Run) -> dict[str, Any]:
     if run.fast:
         trials = Trials(arms=1, presses=1, columns=2, seed=run.seed, objects=items)
     asked = _contenders(run)
-    every_ms = list(range(1, LAST_MS + 1))
     count = len(OBJECTS) if items is None else len(items)
     noise_counts = known_noise(trials.foam.noise_counts)
-    right = {f"{scheme} {m}": np.zeros(LAST_MS if whole else 1, dtype=int) for scheme, m, whole in asked}
-    matrices = {
-        f"{scheme} {m}": np.zeros((len(WINDOWS_MS), count, count), dtype=int) for scheme, m, whole in asked if whole
-    }
+    tallies = {f"{scheme} {m}": _Tally(count, is_whole) for scheme, m, is_whole in asked}
     names: list[str] = []
     presses = 0
     with run.progress("presses of objects", trials.arms * count * trials.presses) as progress:
@@ -77,21 +99,15 @@ def _measure_all(run: Run) -> dict[str, Any]:
                 wanted = names.index(arm.objects[item].name)
                 for _ in range(trials.presses):
                     frames, contact_s = press_of(arm, item, 1e-3 * LAST_MS + 0.015)
-                    for key, total in right.items():
-                        times_ms = every_ms if len(total) > 1 else [MIDDLE_MS]
-                        found = answers(judged[key], frames, _RECORDED_HZ, contact_s, [1e-3 * ms for ms in times_ms])
-                        total += [answer == wanted for answer in found]
-                        if key in matrices:
-                            for window, ms in enumerate(WINDOWS_MS):
-                                answer = found[ms - 1]
-                                if answer is not None:
-                                    matrices[key][window, wanted, answer] += 1
+                    for key, tally in tallies.items():
+                        times_s = [1e-3 * ms for ms in tally.times_ms]
+                        tally.add(wanted, answers(judged[key], frames, _RECORDED_HZ, contact_s, times_s))
                     progress.show(presses := presses + 1)
     return {
         "presses": presses,
         "objects": names,
-        "right": {key: total.tolist() for key, total in right.items()},
-        "matrices": {key: matrix.tolist() for key, matrix in matrices.items()},
+        "right": {key: tally.right.tolist() for key, tally in tallies.items()},
+        "matrices": {key: tally.matrices.tolist() for key, tally in tallies.items() if tally.matrices is not None},
     }
 
 
