@@ -9,7 +9,7 @@ What the numbers mean is told in docs/outlines.md.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -70,18 +70,10 @@ def _run(arguments: argparse.Namespace) -> int:
             if arguments.recordings is not None:
                 write_recording(arguments.recordings, name, touches[0].frames, SCENE_RATE_HZ)
             for m in arguments.m:
-                scheme_of_paper = tracing.PAPER_SCHEMES[name]
-                told: dict[tuple[str, str], list[list[Traced]]] = {
-                    ("paper", scheme_of_paper): [],
-                    ("acts", tracing.SCHEME): [],
-                    ("acts", scheme_of_paper): [],
-                }
+                told: dict[tuple[str, str], list[list[Traced]]] = {}
                 for number, shown in enumerate(touches, start=1):
-                    for (method, scheme), all_traced in told.items():
-                        if method == "paper":
-                            all_traced.append(tracing.paper(shown, m, arguments.noise_counts, number))
-                        else:
-                            all_traced.append(tracing.ours(shown, m, arguments.noise_counts, number, scheme))
+                    for contender, one in _traced_by_all(shown, m, arguments.noise_counts, number):
+                        told.setdefault(contender, []).append(one)
                     progress.show(done := done + 1)
                 for (method, scheme), traced in told.items():
                     entry = {"body": name, "m": m, "method": method, "scheme": scheme, **scores_of(traced, m)}
@@ -90,6 +82,16 @@ def _run(arguments: argparse.Namespace) -> int:
                     outlines = tracing.our_outlines(touches[0], m, arguments.noise_counts, 1)
                     write_surfaces(arguments.surfaces, f"{name}_m{m}", outlines)
     return 0
+
+
+def _traced_by_all(
+    shown: Meeting, m: int, noise_counts: float, seed: int
+) -> Iterator[tuple[tuple[str, str], list[Traced]]]:
+    """A touch of a body as each contender tells its outline: method and scheme, and what they have traced."""
+    scheme_of_paper = tracing.PAPER_SCHEMES[shown.body.name]
+    yield ("paper", scheme_of_paper), tracing.paper(shown, m, noise_counts, seed)
+    for scheme in (tracing.SCHEME, scheme_of_paper):
+        yield ("acts", scheme), tracing.ours(shown, m, noise_counts, seed, scheme)
 
 
 def touch_of(name: str, seed: int, number: int) -> Meeting:
