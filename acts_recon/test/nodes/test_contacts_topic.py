@@ -104,38 +104,45 @@ def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Calla
     ]
 
 
-def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
-    peers = make_peers(121)
-    node = peers.add(Node("maker", namespace="/plate", context=peers.context))
-    settings = ReconstructionSettings()
-    recovery = settings.recovery()
-    contacts = ContactsPublisher(node, settings, recovery)
+VIEWED = ["view/contacts", "contacts_view"]
 
-    def frame_of_image(sequence: int, image: NDArray, due: list[str]) -> RecoveredFrame:
-        recovery.image[:] = image
+
+class Publishing:
+    """A `ContactsPublisher` that is given images, and a peer that listens to all of its topics."""
+
+    def __init__(self, make_peers: Callable[..., Peers]) -> None:
+        self.peers = make_peers(121)
+        node = self.peers.add(Node("maker", namespace="/plate", context=self.peers.context))
+        settings = ReconstructionSettings()
+        self.recovery = settings.recovery()
+        self._contacts = ContactsPublisher(node, settings, self.recovery)
+        self.peers.listen(Contacts, "contacts", qos.STREAM)
+        self.peers.listen(Contacts, "view/contacts", qos.VIEW)
+        self.peers.listen(MarkerArray, "contacts_view", qos.VIEW)
+        self.peers.until(self._is_heard)
+
+    def publish(self, sequence: int, image: NDArray, due: list[str]) -> None:
+        self.recovery.image[:] = image
         samples = samples_of(image, sequence)
         frame = frame_of(samples)
-        return RecoveredFrame(samples.header, stamp_ns_of(samples), frame, frame, Contact(), due)
+        self._contacts.publish(RecoveredFrame(samples.header, stamp_ns_of(samples), frame, frame, Contact(), due))
 
+    def _is_heard(self) -> bool:
+        self._contacts.look_for_subscribers()
+        return self._contacts._send and self._contacts.viewed == VIEWED
+
+
+def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
+    publishing = Publishing(make_peers)
+    received = publishing.peers.received
     image = bump(GEOMETRY, 20.0, 12.0).astype(np.float32)
     sigma = np.full((32, 32), 5, dtype=np.float32)
-    assert recovery.sigma is not None
-    recovery.sigma[:] = sigma
-    peers.listen(Contacts, "contacts", qos.STREAM)
-    peers.listen(Contacts, "view/contacts", qos.VIEW)
-    peers.listen(MarkerArray, "contacts_view", qos.VIEW)
-    viewed = ["view/contacts", "contacts_view"]
-
-    def is_heard() -> bool:
-        contacts.look_for_subscribers()
-        return contacts._send and contacts.viewed == viewed
-
-    peers.until(is_heard)
-
+    assert publishing.recovery.sigma is not None
+    publishing.recovery.sigma[:] = sigma
     (expected,) = BlobTracker(GEOMETRY).step(image, 0.0, sigma)
-    contacts.publish(frame_of_image(1, image, viewed))
-    peers.until(lambda: all(peers.received.values()))
-    ((contact,),) = (message.contacts for message in peers.received["contacts"])
+    publishing.publish(1, image, VIEWED)
+    publishing.peers.until(lambda: all(received.values()))
+    ((contact,),) = (message.contacts for message in received["contacts"])
     assert contact.number == 1
     assert contact.position_sigma.x == expected.x_sd_m > 0
     assert contact.position_sigma.y == expected.y_sd_m > 0
@@ -147,8 +154,8 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     assert contact.spread == pytest.approx(expected.spread_m)
     assert contact.orientation == pytest.approx(expected.angle_rad)
 
-    assert peers.received["view/contacts"] == peers.received["contacts"]
-    (markers,) = peers.received["contacts_view"]
+    assert received["view/contacts"] == received["contacts"]
+    (markers,) = received["contacts_view"]
     disc, text = markers.markers
     assert (disc.type, text.type, text.text) == (Marker.CYLINDER, Marker.TEXT_VIEW_FACING, "1")
     assert (disc.header.frame_id, disc.id, disc.action) == ("plate", 1, Marker.ADD)
@@ -156,13 +163,17 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     assert np.pi * (disc.scale.x / 2) ** 2 == pytest.approx(contact.area)
     assert 0 < disc.lifetime.nanosec < 1e9
 
-    # More than fit: said, and as many as fit are sent.
+
+def test_of_more_contacts_than_fit_as_many_as_fit_are_sent_and_that_is_said(make_peers: Callable[..., Peers]) -> None:
+    publishing = Publishing(make_peers)
+    received = publishing.peers.received
     many = np.zeros((32, 32), dtype=np.float32)
     many[::4, ::4] = 200
-    recovery.sigma = None
-    contacts.publish(frame_of_image(2, many, []))
-    peers.until(lambda: len(peers.received["contacts"]) == 2)
-    assert len(peers.received["contacts"][1].contacts) == MAX_BLOBS
-    assert len(peers.received["view/contacts"]) == 1
-    assert peers.received["contacts"][1].dropped == 64 - MAX_BLOBS
-    assert peers.received["contacts"][1].contacts[0].position_sigma.x == 0
+    publishing.recovery.sigma = None
+    publishing.publish(1, many, [])
+    publishing.peers.until(lambda: bool(received["contacts"]))
+    (message,) = received["contacts"]
+    assert len(message.contacts) == MAX_BLOBS
+    assert message.dropped == 64 - MAX_BLOBS
+    assert message.contacts[0].position_sigma.x == 0
+    assert received["view/contacts"] == []
