@@ -164,14 +164,14 @@ def test_a_contact_far_away_is_another(tracker: BlobTracker) -> None:
     assert numbers(history[9]) != numbers(history[10])
 
 
-def test_joined_contacts_have_the_number_of_the_stronger_and_part_with_their_own(tracker: BlobTracker) -> None:
+def joined_and_parted(k: int) -> list[Press]:
     """Two that come near one another, stay, and go back to where they came from; the stronger moves the less."""
+    distance = 3.5 + 0.05 * max(abs(k - 250) - 100, 0)
+    return [(16.0, 14.0, 1.3, 2.0), (16.0, 14.0 + distance, 1.3, 1.0)]
 
-    def presses(k: int) -> list[Press]:
-        distance = 3.5 + 0.05 * max(abs(k - 250) - 100, 0)
-        return [(16.0, 14.0, 1.3, 2.0), (16.0, 14.0 + distance, 1.3, 1.0)]
 
-    history = run(tracker, presses, 500)
+def test_joined_contacts_have_the_number_of_the_stronger_and_part_with_their_own(tracker: BlobTracker) -> None:
+    history = run(tracker, joined_and_parted, 500)
     strong, weak = nearest(history[0], 16, 14), nearest(history[0], 16, 25)
     joined = [found for found in history if len(found) == 1]
     assert len(joined) > 150
@@ -228,11 +228,7 @@ def test_of_a_contact_that_parts_the_stronger_keeps_the_number(tracker: BlobTrac
 def test_what_joined_long_ago_is_forgotten() -> None:
     tracker = BlobTracker(GEOMETRY, RESPONSE, BlobConfig(memory_s=0.05))
 
-    def presses(k: int) -> list[Press]:
-        distance = 3.5 + 0.05 * max(abs(k - 250) - 100, 0)
-        return [(16.0, 14.0, 1.3, 2.0), (16.0, 14.0 + distance, 1.3, 1.0)]
-
-    history = run(tracker, presses, 500)
+    history = run(tracker, joined_and_parted, 500)
     assert sorted(numbers(history[0])) == [1, 2]
     assert history[250][0].merged == 0
     assert sorted(numbers(history[-1])) == [nearest(history[0], 16, 14), 3]
