@@ -22,6 +22,7 @@
 #include "acts_firmware/wire/packet.hpp"
 #include "acts_firmware/wire/packet_receiver.hpp"
 #include "acts_firmware/wire/published_ascii.hpp"
+#include "acts_firmware/wire/results.hpp"
 #include "acts_firmware/wire/transmit_queue.hpp"
 
 namespace acts {
@@ -111,7 +112,9 @@ class Firmware {
   std::array<std::uint8_t, kMaxWireBytes> wire_{};
 };
 
-static_assert(kMaxAsciiBytes >= kMaxPacketBytes, "message_ holds either");
+static_assert(kMaxPacketBytes >= kMaxImageBytes && kMaxPacketBytes >= kMaxObjectBytes && kMaxPacketBytes >= kReplyBytes,
+              "message_ and wire_ hold any packet");
+static_assert(kMaxAsciiBytes >= kMaxPacketBytes, "message_ holds either protocol's");
 static_assert(TransmitQueue::kCapacity >= 2 * kMaxAsciiBytes, "the largest message must fit");
 
 }  // namespace acts
