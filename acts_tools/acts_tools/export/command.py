@@ -66,20 +66,12 @@ def run(arguments: argparse.Namespace) -> int:
         A bag cannot be read, or the output exists already or has no name of its kind.
     """
     kind, bags = arguments.kind, arguments.bags
-    rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
-    if not 0.0 <= rate_hz <= _RATE_MAX_HZ or (kind == "lerobot" and (rate_hz < 1.0 or rate_hz != int(rate_hz))):
-        allowed = f"a whole number from 1 to {_RATE_MAX_HZ:.0f}" if kind == "lerobot" else f"0 to {_RATE_MAX_HZ:.0f}"
-        raise RecordingError(f"--rate {rate_hz:g}: for {kind} allowed is {allowed}")
+    rate_hz = _rate_hz(arguments)
     if len(bags) > 1 and kind != "lerobot":
         raise RecordingError(f"{len(bags)} bags: of several only a LeRobot dataset is made; export them one by one")
     if kind != "lerobot":
         refuse_unused(arguments, f"with --to {kind}", "task")
-    output = arguments.output or _default_output(bags[0], kind)
-    if output.exists():
-        raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
-    # What reads a recording tells an npz file by its name.
-    if kind == "npz" and output.suffix != ".npz":
-        raise RecordingError(f"'{output}': no name of an npz file; allowed are names that end in .npz")
+    output = _new_output(arguments)
     # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.lerobot import LeRobotWriter
     from acts_tools.export.recording import Choice, open_recording
@@ -120,6 +112,27 @@ def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
     print(f"{bag}: {counted(n_rows, 'row')} of {recording.skin or '/'}{joints}")
     for sentence in recording.notes():
         print(f"{bag}: {sentence}", file=sys.stderr)
+
+
+def _rate_hz(arguments: argparse.Namespace) -> float:
+    """Rows a second; 0: one a frame."""
+    kind = arguments.kind
+    rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
+    if not 0.0 <= rate_hz <= _RATE_MAX_HZ or (kind == "lerobot" and (rate_hz < 1.0 or rate_hz != int(rate_hz))):
+        allowed = f"a whole number from 1 to {_RATE_MAX_HZ:.0f}" if kind == "lerobot" else f"0 to {_RATE_MAX_HZ:.0f}"
+        raise RecordingError(f"--rate {rate_hz:g}: for {kind} allowed is {allowed}")
+    return float(rate_hz)
+
+
+def _new_output(arguments: argparse.Namespace) -> Path:
+    """Where to write; nothing is there yet."""
+    output: Path = arguments.output or _default_output(arguments.bags[0], arguments.kind)
+    if output.exists():
+        raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
+    # What reads a recording tells an npz file by its name.
+    if arguments.kind == "npz" and output.suffix != ".npz":
+        raise RecordingError(f"'{output}': no name of an npz file; allowed are names that end in .npz")
+    return output
 
 
 def _default_output(bag: Path, kind: str) -> Path:
