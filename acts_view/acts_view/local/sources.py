@@ -22,6 +22,7 @@ from acts_driver.nodes.intake import Intake
 from acts_driver.replay import ReplayOptions, SeekableRecording, open_recording
 from acts_driver.settings import DriverSettings
 from acts_recon.settings import ReconstructionSettings
+from acts_ros.diagnostics import ERROR, OK, WARN
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback
 from acts_view.recording.recording import Feed, Recording
@@ -134,15 +135,15 @@ class RecordedSource:
         """See `LocalSource.status`."""
         assert self._playback is not None
         state = self._playback.state
-        level, message = (2, state.problem) if state.problem else (0, "playing" if state.is_playing else "held")
+        level, message = (ERROR, state.problem) if state.problem else (OK, "playing" if state.is_playing else "held")
         # Of a bag whose recorder was killed.
         note = getattr(self.recording, "note", None)
         for words in (note, self._baseline_problem):
-            if words and level < 2:
-                level, message = 1, f"{message}; {words}"
+            if words and level < ERROR:
+                level, message = WARN, f"{message}; {words}"
         if self.skin.rejected:
             left_out = f"{counted(self.skin.rejected, 'frame')} left out: {self.skin.problem}"
-            level, message = max(level, 1), f"{message}; {left_out}"
+            level, message = max(level, WARN), f"{message}; {left_out}"
         return {
             "note": "A recording is shown: there is nothing to record, and no node to ask.",
             "replay": {
