@@ -54,7 +54,7 @@ class BagRecording:
                 bag.check_definition(self._topic)
             except RecordingError as error:
                 raise RecordingError(f"the bag '{path}': {error}") from error
-            self._begin_ns, self._end_ns = bag.span_ns(self._topic)
+            self._begin_ns, self._end_ns = bag.span_ns([self._topic])
         if next(self.frames(), None) is None:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
 

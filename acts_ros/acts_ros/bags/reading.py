@@ -72,8 +72,8 @@ class Bag:
             for profile in cast(ConnectionExtRosbag2, connection.ext).offered_qos_profiles
         ]
 
-    def span_ns(self, topic: str) -> tuple[int, int]:
-        """Earliest and latest stamp [ns]: of the bag where its metadata say it and make sense, else of the topic.
+    def span_ns(self, topics: Sequence[str]) -> tuple[int, int]:
+        """Earliest and latest stamp [ns]: of the bag where its metadata say it and make sense, else of these topics.
 
         Raises
         ------
@@ -83,7 +83,7 @@ class Bag:
         if isinstance(self._reader, BagReader) and self._reader.start_time <= self._reader.end_time:
             return self._reader.start_time, self._reader.end_time
         begin_ns = end_ns = None
-        for _, stamp_ns, _ in self.messages([topic]):
+        for _, stamp_ns, _ in self.messages(topics):
             begin_ns = stamp_ns if begin_ns is None else min(begin_ns, stamp_ns)
             end_ns = stamp_ns if end_ns is None else max(end_ns, stamp_ns)
         return begin_ns or 0, end_ns or 0

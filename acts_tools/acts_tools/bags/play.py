@@ -25,6 +25,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
     parser.add_argument("-r", "--rate", type=real(1e-3), default=1.0, help="speed, 2 is twice as fast (default: 1)")
     parser.add_argument("-l", "--loop", action="store_true", help="start again at the end, until Ctrl-C")
+    parser.add_argument(
+        "--start-offset",
+        type=real(0.0),
+        default=0.0,
+        metavar="SECONDS",
+        help="begin so long after the bag's beginning; with --loop, each time (default: 0)",
+    )
     parser.add_argument("-t", "--topics", nargs="+", metavar="TOPIC", help="only these topics")
     parser.add_argument(
         "--delay",
@@ -38,11 +45,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(arguments: argparse.Namespace) -> int:
     """Run ``acts play``; return 0 when the bag was played to its end or until Ctrl-C."""
     topics = None if arguments.topics is None else [f"/{name.lstrip('/')}" for name in arguments.topics]
-    play(arguments.bag, arguments.rate, arguments.loop, topics, arguments.delay)
+    play(arguments.bag, arguments.rate, arguments.loop, topics, arguments.delay, arguments.start_offset)
     return 0
 
 
-def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s: float) -> None:
+def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s: float, offset_s: float = 0.0) -> None:
     """Play a bag.
 
     Parameters
@@ -57,11 +64,14 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
         Full names; None for all.
     delay_s : float
         Time before the first message [s].
+    offset_s : float
+        Leave out so much of the bag's beginning [s].
 
     Raises
     ------
     RecordingError
-        There is no bag, a topic is not in it, or it is damaged (after the readable messages have been played).
+        There is no bag, a topic is not in it, nothing is in it after the offset, or it is damaged (after the readable
+        messages have been played).
     """
     require_rosbags()
     # Imported here, because they are slow to import and other commands do not need them.
@@ -73,7 +83,7 @@ def play(path: Path, rate: float, loop: bool, topics: list[str] | None, delay_s:
     with open_bag(path) as bag, StopFlag() as stop, command_node("acts_player") as (node, _):
         if bag.note is not None:
             _say(bag.note)
-        player = Player(node, bag, topics, _say)
+        player = Player(node, bag, topics, _say, offset_s)
         started_s = time.monotonic() + delay_s
         try:
             going = stop.sleep_until(started_s)

@@ -50,14 +50,23 @@ class Player:
         Topics to play; None for all.
     say : callable
         Called with a line for the user.
+    offset_s : float
+        Leave out so much of the bag's beginning [s].
 
     Raises
     ------
     RecordingError
-        A topic is not in the bag, or no topic can be played.
+        A topic is not in the bag, no topic can be played, or none has a message after the offset.
     """
 
-    def __init__(self, node: Node, bag: Bag, topics: Sequence[str] | None, say: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        bag: Bag,
+        topics: Sequence[str] | None,
+        say: Callable[[str], None],
+        offset_s: float = 0.0,
+    ) -> None:
         self.report = PlayReport()
         self._bag = bag
         self._publishers: dict[str, Publisher] = {}
@@ -74,6 +83,7 @@ class Player:
             self._publishers[topic] = node.create_publisher(kind, topic, qos.for_publisher(bag.recorded_qos(topic)))
         if not self._publishers:
             raise RecordingError("the bag has no topic that can be played")
+        self._from_ns = self._begin_ns(offset_s) if offset_s else None
 
     def play(self, rate: float, sleep_until: Callable[[float], bool]) -> bool:
         """Publish all messages once.
@@ -97,7 +107,7 @@ class Player:
         """
         started_s = time.monotonic()
         first_ns: int | None = None
-        for topic, stamp_ns, data in self._bag.messages(list(self._publishers)):
+        for topic, stamp_ns, data in self._bag.messages(list(self._publishers), self._from_ns):
             if first_ns is None:
                 first_ns = stamp_ns
             # Every deadline is relative to the start, so that delays do not accumulate.
@@ -108,6 +118,20 @@ class Player:
             self._publishers[topic].publish(data)
             self.report.published += 1
         return True
+
+    def _begin_ns(self, offset_s: float) -> int:
+        """Stamp at an offset from the bag's beginning [ns], after which there are messages."""
+        begin_ns, end_ns = self._bag.span_ns(list(self._bag.topics()))
+        length_s = (end_ns - begin_ns) * 1e-9
+        played = list(self._publishers)
+        if offset_s <= length_s:
+            from_ns = begin_ns + round(offset_s * 1e9)
+            if next(self._bag.messages(played, from_ns), None) is not None:
+                return from_ns
+        raise RecordingError(
+            f"nothing to play {offset_s:g} s after the bag's beginning: it is {length_s:.3f} s long, and the topics "
+            f"to play are {', '.join(sorted(played))}; give a smaller offset"
+        )
 
     def finish(self) -> None:
         """Wait until reliable subscribers have received the last messages."""

@@ -9,6 +9,7 @@ import re
 import signal
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -46,6 +47,11 @@ def make_bag(path: Path, topics: dict[str, str], stamps_ms: list[int], monkeypat
     bag.close()
 
 
+def noted(deadlines: list[float], deadline_s: float) -> bool:
+    deadlines.append(deadline_s)
+    return True
+
+
 def test_messages_are_played_at_their_times_by_absolute_deadlines(
     probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -63,6 +69,47 @@ def test_messages_are_played_at_their_times_by_absolute_deadlines(
         assert player.report.published == 4
         assert not player.play(2.0, sleep_until)  # told to stop before the last one
         assert player.report.published == 7
+
+
+@pytest.mark.parametrize("is_unfinished", [False, True])
+@pytest.mark.parametrize(("topic", "between_ms"), [("/a", 11), ("/b", 10)])
+def test_it_begins_at_an_offset_from_the_beginning_of_the_bag(
+    probe: Probe,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    is_unfinished: bool,
+    topic: str,
+    between_ms: int,
+) -> None:
+    topics = {"/a": "std_msgs/msg/String", "/b": "std_msgs/msg/String"}
+    make_bag(tmp_path / "bag", topics, [1000, 1010, 1020, 1030, 1031, 1040], monkeypatch)
+    if is_unfinished:
+        (tmp_path / "bag" / "metadata.yaml").unlink()
+    with open_bag(tmp_path / "bag") as bag:
+        player = Player(probe.node, bag, [topic], print, 0.015)
+        for turn in (1, 2):  # a loop begins there each time
+            deadlines: list[float] = []
+            assert player.play(1.0, partial(noted, deadlines))
+            assert player.report.published == 2 * turn
+            assert deadlines[1] - deadlines[0] == pytest.approx(between_ms * 1e-3)
+
+
+@pytest.mark.parametrize("is_unfinished", [False, True])
+@pytest.mark.parametrize("offset_s", [0.0401, 1e9, 1e300])
+def test_an_offset_beyond_the_end_is_refused_with_the_length(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_unfinished: bool, offset_s: float
+) -> None:
+    topics = {"/a": "std_msgs/msg/String", "/b": "std_msgs/msg/String"}
+    make_bag(tmp_path / "bag", topics, [1000, 1010, 1031, 1040], monkeypatch)
+    if is_unfinished:
+        (tmp_path / "bag" / "metadata.yaml").unlink()
+    with open_bag(tmp_path / "bag") as bag:
+        with pytest.raises(RecordingError, match=r"after the bag's beginning: it is 0\.040 s long") as caught:
+            Player(probe.node, bag, None, print, offset_s)
+        assert f"nothing to play {offset_s:g} s" in str(caught.value)
+        # The bag goes on, but this topic does not.
+        with pytest.raises(RecordingError, match="the topics to play are /a; give a smaller offset"):
+            Player(probe.node, bag, ["/a"], print, 0.035)
 
 
 def test_unknown_topics_and_types_are_refused_or_left_out(

@@ -42,6 +42,7 @@ EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlin
         ("listen /cop -d inf", "0.001 or more"),
         ("play any --delay nan", "0 or more"),
         ("play any --rate 0", "0.001 or more"),
+        ("play any --start-offset -1", "0 or more"),
         ("record -a -d -1", "0.001 or more"),
         ("train -o any.npz --patches 1", "a whole number from 2 to 1000000"),
         ("train -o any.npz --presses 0", "a whole number from 1 to 1000000"),
