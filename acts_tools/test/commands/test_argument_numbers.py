@@ -73,6 +73,8 @@ def test_it_is_told_what_is_allowed(
         *(["evaluate", name, "--m", "1025"] for name in ("ricochet", "wearables")),
         *(["evaluate", name, "--noise-counts", "101"] for name in ("impacts", "wearables")),
         ["evaluate", "impacts", "--touch-ms", "0"],
+        ["evaluate", "impacts", "--touch-ms", "500"],
+        ["evaluate", "recovery", "--presses", "1", "--search-counts", "1024"],
         ["evaluate", "ricochet", "--speeds", "1", "nan"],
         ["evaluate", "spectra", "--noise-counts", "-1"],
         ["evaluate", "gait", "--rate", "0"],

@@ -10,12 +10,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_frame
 from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import add_settings, taxels
+from acts_tools.arguments import add_settings, taxels, whole
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
@@ -53,7 +54,7 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
     add_settings(parser, Task, **defaults)
     parser.add_argument(
         "--search-counts",
-        type=int,
+        type=whole(0, COUNT_MAX),
         metavar="X",
         help="counts above which the sampling searches around or follows a taxel (default: "
         f"{FOLLOW_COUNTS} for tracking, as --touch-counts for the others)",
