@@ -93,8 +93,9 @@ def scene(
 
 
 def _is_on(skin: ContactModel, throw: Throw) -> bool:
-    half_x, half_y = skin.geometry.x_m(skin.geometry.cols - 1), skin.geometry.y_m(0)
-    return bool(abs(throw.x_m) <= half_x and abs(throw.y_m) <= half_y)
+    geometry = skin.geometry
+    half_x_m, half_y_m = geometry.cols * geometry.pitch_m / 2, geometry.rows * geometry.pitch_y_m / 2
+    return abs(throw.x_m) <= half_x_m and abs(throw.y_m) <= half_y_m
 
 
 def _draw(frames: NDArray[np.uint16], skin: ContactModel, ball: Ball, collision: Collision) -> None:

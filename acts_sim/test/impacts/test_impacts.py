@@ -107,6 +107,19 @@ def test_a_scene_shows_each_bounce_when_it_is_and_nothing_else() -> None:
     assert peak_n == pytest.approx(shown.collisions[0].force_n.max(), rel=0.1)
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize(("pitches", "bounces"), [(15.9, 2), (16.1, 1)])
+def test_a_ball_bounces_again_on_the_whole_of_the_outer_taxels_and_not_beside_them(
+    axis: int, pitches: float, bounces: int
+) -> None:
+    rng = np.random.default_rng(5)
+    skin = skin_of(rng)
+    at_m = pitches * skin.geometry.pitch_m
+    x_m, y_m = (at_m, 0.0) if axis == 0 else (0.0, -at_m)
+    shown = scene(skin, ball_named("golf"), dropped(0.02, x_m, y_m), bounces=2, rng=rng)
+    assert len(shown.collisions) == bounces
+
+
 def test_the_same_seed_is_the_same_scene() -> None:
     def one(seed: int) -> np.ndarray:
         rng = np.random.default_rng(seed)
