@@ -89,7 +89,7 @@ def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str
         "title": figure.title,
         "command": command,
         **one.settings,
-        "notes": list(figure.notes),
+        "notes": figure.notes_of(one),
         "published": published is not None and figure.has_published,
         "differences": compared,
         "panels": to_json(whole),
@@ -98,7 +98,7 @@ def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str
     write_csv(path.with_suffix(".csv"), command, _HEADER, rows(whole))
     if images := large_images(whole):
         write_images(path.with_suffix(".npz"), command, images)
-    notes = [*figure.notes, *([_WITHOUT] if published is None and figure.has_published else [])]
+    notes = [*figure.notes_of(one), *([_WITHOUT] if published is None and figure.has_published else [])]
     draw(path.with_suffix(".png"), figure, whole, command, notes)
     how = "as measured before" if known is not None else f"measured in {spent_s:.1f} s"
     tell(f"{figure.name:5} {path.with_suffix('.png')}, {how}")

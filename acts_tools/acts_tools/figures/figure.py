@@ -33,8 +33,10 @@ class Figure:
         Panels in a row of the picture.
     panel_inch : tuple of float
         Width and height of a panel [inch].
+    how : callable or None
+        ``how(run)``: of what and how much it is measured, where ``--fast`` measures less; None for nothing to say.
     notes : tuple of str
-        What a reader of the picture must know, a sentence each.
+        What else a reader of the picture must know, a sentence each.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Figure:
     published_panels: Callable[[PublishedData, Sequence[Panel]], list[Panel]] | None = None
     columns: int = 3
     panel_inch: tuple[float, float] = (3.4, 2.9)
+    how: Callable[[Run], str] | None = None
     notes: tuple[str, ...] = ()
 
     @property
@@ -55,6 +58,10 @@ class Figure:
     def has_published(self) -> bool:
         """Whether something was published that is drawn beside."""
         return self.published is not None or self.published_panels is not None
+
+    def notes_of(self, run: Run) -> list[str]:
+        """What a reader of the picture that this run makes must know, a sentence each."""
+        return [*([] if self.how is None else [self.how(run)]), *self.notes]
 
     def with_published(self, data: PublishedData, panels: Sequence[Panel]) -> list[Panel]:
         """The measured panels, and what was published.

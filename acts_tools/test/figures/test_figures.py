@@ -92,6 +92,34 @@ def test_a_figure_is_not_measured_again(tmp_path: Path, capsys: pytest.CaptureFi
     assert told == [False, True, False, False, False]
 
 
+@pytest.mark.parametrize(
+    ("name", "fast", "how"),
+    [
+        ("4F", False, "360 presses of 30 simulated objects, as in docs/recovery.md."),
+        ("4G", True, "6 presses of 6 simulated objects, as in docs/recovery.md."),
+        ("5G", False, "25 throws of each angle and speed (1, 2, 3 m/s), M = 64."),
+        ("5G", True, "1 throw of each angle and speed (2 m/s), M = 64."),
+        (
+            "S3-1",
+            False,
+            "10 new objects; the dictionary is learnt from 14,907 patches of 3000 presses of the 20 others.",
+        ),
+        ("S3-1", True, "3 new objects; the dictionary is learnt from 200 patches of 40 presses of the 20 others."),
+    ],
+)
+def test_the_notes_tell_how_much_was_measured(name: str, fast: bool, how: str, tmp_path: Path) -> None:
+    figure = FIGURES[name]
+    assert figure.notes_of(Run(tmp_path, fast=fast)) == [how, *figure.notes]
+
+
+def test_what_is_told_to_be_measured_is_what_is_drawn(folder: Path) -> None:
+    assert main(["figures", "5G", "--fast", "--out", str(folder)]) == 0
+    made = json.loads((folder / "fig_5g.json").read_text())
+    assert made["notes"][0] == "1 throw of each angle and speed (2 m/s), M = 64."
+    ours = next(curve for curve in made["panels"][0]["curves"] if curve["label"] == "ours")
+    assert len(ours["x"]) == 8
+
+
 def test_panels_are_the_same_when_they_are_read_again() -> None:
     panels = [
         Panel("empty words and zeros", curves=[Curve("", [1.0], [0.0]), Curve("none", [], [])], y_min=0.0, y_max=0.0),

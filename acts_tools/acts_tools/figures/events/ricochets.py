@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.array import COUNT_MAX
+from acts_core.words import counted
 from acts_sim.impacts import Scene
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.impacts import plays
@@ -33,6 +34,7 @@ from acts_tools.figures.skin_images import skin_panel
 _M = 64
 _NOISE_COUNTS = 3.0
 _THROWS, _THROWS_FAST = 25, 1
+_SPEEDS_FAST_M_S = (2.0,)
 _SHOWN_DEG, _SHOWN_M_S = 45, 2.0
 _FRAMES = 4
 
@@ -74,7 +76,7 @@ def _path(shown: Scene, angle_deg: int) -> Panel:
 
 
 def _measure_directions(run: Run) -> dict[str, Any]:
-    throws, speeds = run.pick(_THROWS, _THROWS_FAST), run.pick(SPEEDS_M_S, (2.0,))
+    throws, speeds = run.pick(_THROWS, _THROWS_FAST), run.pick(SPEEDS_M_S, _SPEEDS_FAST_M_S)
     paper, ours = PaperDirections(_M, _NOISE_COUNTS), plays.Ours(SCHEME, _M, _NOISE_COUNTS)
     of_angles = []
     everything: tuple[list[float | None], list[tuple[float, float] | None]] = ([], [])
@@ -123,6 +125,12 @@ def _measure_errors(run: Run) -> list[Panel]:
     ]
 
 
+def _how_many(run: Run) -> str:
+    throws, speeds = run.pick(_THROWS, _THROWS_FAST), run.pick(SPEEDS_M_S, _SPEEDS_FAST_M_S)
+    at = ", ".join(f"{speed:g}" for speed in speeds)
+    return f"{counted(throws, 'throw')} of each angle and speed ({at} m/s), M = {_M}."
+
+
 FIGURES = (
     Figure(
         "5F",
@@ -139,8 +147,8 @@ FIGURES = (
         "5G",
         "direction of ricochets from eight angles",
         _measure_errors,
+        how=_how_many,
         notes=(
-            "25 throws of each angle at 1, 2 and 3 m/s, M = 64.",
             "Throws of which no direction is told are within no error.",
             "The paper shows its directions as lines in photographs, without numbers.",
         ),

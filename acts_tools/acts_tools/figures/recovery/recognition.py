@@ -73,14 +73,27 @@ class _Tally:
                 matrix[wanted, answer] += 1
 
 
+def _trials(run: Run) -> Trials:
+    if run.fast:
+        return Trials(arms=1, presses=1, columns=2, seed=run.seed, objects=tuple(list(OBJECTS.values())[::5]))
+    return Trials(arms=4, presses=3, columns=5, seed=run.seed)
+
+
+def _objects(trials: Trials) -> int:
+    return len(OBJECTS if trials.objects is None else trials.objects)
+
+
+def _how_many(run: Run) -> str:
+    trials = _trials(run)
+    presses = trials.arms * trials.presses * _objects(trials)
+    return f"{presses} presses of {_objects(trials)} simulated objects, as in docs/recovery.md."
+
+
 def _measure_all(run: Run) -> dict[str, Any]:
     """Right answers by scheme, M and millisecond since contact, and confusion matrices at three times."""
-    items = tuple(list(OBJECTS.values())[::5]) if run.fast else None
-    trials = Trials(arms=4, presses=3, columns=5, seed=run.seed, objects=items)
-    if run.fast:
-        trials = Trials(arms=1, presses=1, columns=2, seed=run.seed, objects=items)
+    trials = _trials(run)
     asked = _contenders(run)
-    count = len(OBJECTS) if items is None else len(items)
+    count = _objects(trials)
     noise_counts = known_noise(trials.foam.noise_counts)
     tallies = {f"{scheme} {m}": _Tally(count, is_whole) for scheme, m, is_whole in asked}
     names: list[str] = []
@@ -201,20 +214,26 @@ def _published_over_time(data: PublishedData, panels: Sequence[Panel]) -> dict[s
     return found
 
 
-_HOW = (
-    "Presses of simulated objects as in docs/recovery.md (360, with --fast 6).",
+_NOTES = (
     "The published repeatability of the spot is unknown: 0.15 taxels here, which fits adaptive sampling.",
     "Bands: 95 % intervals.",
 )
 
 FIGURES = (
-    Figure("4F", "which object presses, over the taxels measured", _measure_over_m, _published_over_m, notes=_HOW),
+    Figure(
+        "4F",
+        "which object presses, over the taxels measured",
+        _measure_over_m,
+        _published_over_m,
+        how=_how_many,
+        notes=_NOTES,
+    ),
     Figure(
         "4G",
         "which object presses, over time since contact",
         _measure_over_time,
         _published_over_time,
         columns=2,
-        notes=_HOW[:1],
+        how=_how_many,
     ),
 )
