@@ -19,6 +19,9 @@ class PortClaim:
     A port has the name that was given, and the one where that leads to: a link in /dev/serial/by-id and /dev/ttyUSB0
     are one hand. While nothing is there the first alone is known.
 
+    The number of a pseudo-terminal belongs to a port only as long as the terminal is there: the next that is made, as
+    for another simulated hand, gets the same one.
+
     Parameters
     ----------
     port : str
@@ -36,9 +39,10 @@ class PortClaim:
         HandError
             When another program has one of them, which is named.
         """
-        names = dict.fromkeys((str(Path(self._port).absolute()), os.path.realpath(self._port)))
+        paths = dict.fromkeys((str(Path(self._port).absolute()), os.path.realpath(self._port)))
+        names = [name for name in map(_name_of, paths) if name is not None]
         # An adapter that was plugged in anew may have another number, and its old one be somebody else's.
-        for name in self._claims.keys() - names:
+        for name in self._claims.keys() - set(names):
             self._claims.pop(name).close()
         for name in names:
             if name not in self._claims:
@@ -56,3 +60,15 @@ class PortClaim:
             raise HandError(held(self._port, str(error))) from error
         except OSError as error:
             raise HandError(f"{self._port} cannot be claimed ({error.strerror})") from error
+
+
+def _name_of(path: str) -> str | None:
+    """What stands for a path among the programs of this machine; None for a pseudo-terminal that is not there."""
+    if not path.startswith("/dev/pts/"):
+        return path
+    try:
+        # Linux sets this time when it makes the terminal, and not when somebody writes. It goes in steps of some
+        # milliseconds, for which a hand is there at least.
+        return f"{path} of {Path(path).stat().st_ctime_ns}"
+    except OSError:
+        return None
