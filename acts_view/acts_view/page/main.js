@@ -16,7 +16,7 @@ import { nameOf } from "./words.js";
 const TICK_MS = 50;
 const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
 const LISTS = ["scale", "unit", "colours", "window"];
-const SWITCHES = ["smooth", "contacts", "outlines", "unsure", "measured"];
+const SWITCHES = ["smooth", "contacts", "outlines", "unsure", "measured", "keys"];
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
 const ZOOMS = {
   "+": (plots) => plots.zoom(0.5),
@@ -98,7 +98,7 @@ for (const name of LISTS) {
 for (const name of [...SWITCHES, "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!panels.isHeld);
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (!settings.keys || event.ctrlKey || event.metaKey || event.altKey) return;
   // What is typed there is theirs; a slider has arrows, Home, End and the page keys, and none of these is ours.
   if (event.target.closest("select, input:not([type=range])")) return;
   const isBlank = event.key === " ";

@@ -15,6 +15,7 @@ const CHOICES = {
   unsure: [false, true],
   measured: [false, true],
   theme: ["auto", "light", "dark"],
+  keys: [true, false],
 };
 
 function load() {
