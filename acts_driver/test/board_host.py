@@ -66,10 +66,13 @@ class Host:
 
 
 class LossyWay:
-    """A way to an imagined board that loses commands and replies as it is told, and keeps the others in order."""
+    """A way to an imagined board that loses commands and replies as it is told, and keeps the others in order.
 
-    def __init__(self, board: SimpleBoard, losses: list[tuple[bool, bool]]) -> None:
-        self.link = BoardLink(self._write, reply_timeout_s=0.001)
+    Without `is_read` the losses are of a machine that does not get to reading.
+    """
+
+    def __init__(self, board: SimpleBoard, losses: list[tuple[bool, bool]], *, is_read: bool = True) -> None:
+        self.link = BoardLink(self._write, reply_timeout_s=0.001, catch_up=lambda _timeout_s: is_read)
         self._board = board
         self._losses = losses
 
@@ -87,6 +90,7 @@ class SimpleBoard:
     def __init__(self) -> None:
         self.uploaded = bytearray()
         self.held = b""
+        self.begun = 0
 
     def receive(self, data: bytes) -> list[BoardMessage]:
         from acts_core.wire import BoardState, ReplyStatus, cobs
@@ -99,6 +103,7 @@ class SimpleBoard:
         status, detail = ReplyStatus.OK, 0
         if kind == PacketType.UPLOAD_BEGIN:
             self.uploaded.clear()
+            self.begun += 1
         elif kind == PacketType.UPLOAD_DATA:
             if int.from_bytes(content[4:8], "little") == len(self.uploaded):
                 self.uploaded += content[8:]

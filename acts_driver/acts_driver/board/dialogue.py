@@ -157,6 +157,7 @@ class BoardLink:
         self.announce(model)
         size = len(model.payload)
         at = 0
+        not_heard: NotHeardError | None = None
         # Each piece may be asked for again; a board that never gets on is given up.
         for _ in range(2 * (size // UPLOAD_PIECE_MAX + 2)):
             if not is_wanted():
@@ -164,13 +165,21 @@ class BoardLink:
             if at >= size:
                 return self._done(self._exchange(encode_upload_end))
             piece = model.payload[at : at + UPLOAD_PIECE_MAX]
-            reply = self._exchange(partial(_encode_data, at, piece))
+            try:
+                reply = self._exchange(partial(_encode_data, at, piece))
+            except NotHeardError as error:
+                # The board keeps what it has: from a busy machine, an upload that begins anew each time would not end.
+                not_heard = error
+                continue
+            not_heard = None
             if reply.status is ReplyStatus.UPLOAD_OUT_OF_ORDER and reply.state.uploading and reply.detail <= size:
                 # The board has the piece already; its reply was lost.
                 at = reply.detail
                 continue
             self._done(reply)
             at += len(piece)
+        if not_heard is not None:
+            raise not_heard
         raise NoAnswerError(f"the board took no more than {at} of the model's {size} bytes; reset it")
 
     def _exchange(self, encode: Callable[[int], bytes]) -> Reply:

@@ -61,10 +61,12 @@ class ModelFile:
         self._reading: Future[BoardModel] | None = None
         self._began_s = 0.0
 
-    @property
-    def is_read(self) -> bool:
-        """Whether reading has ended, with or without success."""
-        return self._reading is not None and self._reading.done()
+    def is_read_as(self, crc32: int) -> bool:
+        """Whether it has been read, and is a model with this checksum."""
+        reading = self._reading
+        if reading is None or not reading.done() or reading.exception() is not None:
+            return False
+        return reading.result().crc32 == crc32
 
     @property
     def problem(self) -> str:

@@ -344,7 +344,8 @@ class BoardSession:
             )
         if self._model is not None and self._model.problem:
             return self._model.problem
-        if state.samples_only and self._due is None and (self._model is None or self._model.is_read):
+        # One that is being read, or is another than the board's, is on its way, also while the board is not heard.
+        if state.samples_only and (self._model is None or self._model.is_read_as(state.model.crc32)):
             return (
                 f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
             )

@@ -152,3 +152,16 @@ def test_an_upload_survives_lost_commands_and_replies(losses: list[tuple[bool, b
     model = dictionary(20)
     LossyWay(board, kept).link.upload(model)
     assert board.held == model.payload
+
+
+def test_an_upload_goes_on_where_this_machine_did_not_read_replies_for_a_while() -> None:
+    board, model = SimpleBoard(), dictionary(20)
+    begin_and_a_piece = [(False, False)] * 2
+    LossyWay(board, begin_and_a_piece + [(False, True)] * 6, is_read=False).link.upload(model)
+    assert (board.held, board.begun) == (model.payload, 1)
+
+
+def test_an_upload_that_is_never_heard_of_ends_with_the_reason() -> None:
+    way = LossyWay(SimpleBoard(), [(False, False), *[(False, True)] * 1000], is_read=False)
+    with pytest.raises(NotHeardError, match="this machine is too slow or too busy to read all"):
+        way.link.upload(dictionary(20))

@@ -18,9 +18,10 @@ from virtual_board import VirtualBoard
 from acts_core.errors import BoardError, SettingsError
 from acts_core.sampling import SkinMap
 from acts_core.skin import layout
-from acts_core.wire import BoardSettings
+from acts_core.wire import BoardMessage, BoardSettings, Reply
 from acts_core.wire.board_models import ModelKind
-from acts_driver.board import BoardParameters, BoardSession, BoardStatus
+from acts_core.wire.packets import PacketType
+from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus
 from acts_driver.board.model_file import load_model
 
 pytestmark = pytest.mark.slow
@@ -204,3 +205,34 @@ def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:
         begin_s = time.monotonic()
         host.close()
         assert time.monotonic() - begin_s < 10.0
+
+
+def test_a_model_on_its_way_is_not_told_as_missing_where_the_board_was_not_heard_for_a_while(
+    board: VirtualBoard, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "model.npz"
+    np.savez(path, atoms=np.random.default_rng(5).normal(size=(64, 100)).astype(np.float32))
+    is_busy = threading.Event()
+    unread: list[BoardMessage] = []
+    receive = BoardLink.receive
+
+    def read(link: BoardLink, message: BoardMessage) -> None:
+        """This machine gets to reading nothing from the first piece of the upload on."""
+        if isinstance(message, Reply) and message.state.uploading and not unread:
+            is_busy.set()
+        if is_busy.is_set():
+            unread.append(message)
+        else:
+            receive(link, message)
+
+    monkeypatch.setattr(BoardLink, "receive", read)
+    monkeypatch.setattr(Host, "catch_up", lambda host, timeout_s: not is_busy.is_set())
+    host = Host(board.link, reply_timeout_s=0.02)
+    session = host.start_session(output="image", m=64, model=str(path))
+    assert session.status.problem == ""
+    # With the fourth, one round is over in which the board was asked three times and not heard.
+    wait_for(lambda: sum(one.command == PacketType.QUERY for one in unread if isinstance(one, Reply)) > 3, "a round")
+    is_busy.clear()
+    wait_for(lambda: any("has taken the model" in line for line in host.log), "the model")
+    host.close()
+    assert not [line for line in host.log if "holds no model" in line]
