@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,35 @@ class _Track:
         self.edge: EdgeFilter | None = None
         self.is_felt = False
         self.last: Outline | None = None
+
+
+class _Frame(NamedTuple):
+    """One frame, as the outlines of all contacts are found in it.
+
+    Attributes
+    ----------
+    labels : np.ndarray [shape=(rows, cols), dtype=intp]
+        The number of the contact of each taxel, 0: none.
+    force_n : np.ndarray [shape=(rows, cols), dtype=float64]
+        Of the image, where taxels of this frame have what was measured.
+    row, col : np.ndarray [shape=(m,), dtype=uint16]
+        Where each sample was measured in the picture.
+    sampled_n : np.ndarray [shape=(m,), dtype=float64]
+        Its force, 0 for noise.
+    since_ms : np.ndarray [shape=(m,), dtype=float64]
+        When it was measured, from the frame's middle on [ms].
+    middle_s, duration_s : float
+        When the middle of the frame was, and how long it took [s].
+    """
+
+    labels: NDArray[np.intp]
+    force_n: Array
+    row: NDArray[np.uint16]
+    col: NDArray[np.uint16]
+    sampled_n: Array
+    since_ms: Array
+    middle_s: float
+    duration_s: float
 
 
 class OutlineTracer:
@@ -172,28 +202,39 @@ class OutlineTracer:
         if not (image > self._touch_counts).any():
             self._tracks.clear()
             return ()
-        values = np.arange(self._force_n.size)
-        # The image predicts what was measured to the end of the frame, too far where a touch rises within a few frames.
-        # An outline is of the frame's middle, and its samples are compared with forces: those of the same samples.
-        measured = image.copy()
-        measured.ravel()[places] = placed_counts
-        force_n = np.where(measured > 0, np.interp(measured, values, self._force_n), 0.0)
         labels, number = self._labels(image)
-        middle_s = end_s - duration_s / 2
-        tracks = self._match(labels, number, middle_s)
-        # The last sample ends with the frame; they are evenly spaced.
-        before_end = np.arange(places.size)[::-1] / max(places.size, 1)
-        since_ms = 1e3 * duration_s * (0.5 - before_end)
-        sampled_n = np.where(placed_counts > self._noise_counts, np.interp(placed_counts, values, self._force_n), 0.0)
+        frame = self._frame(labels, image, places, placed_counts, end_s, duration_s)
+        tracks = self._match(labels, number, frame.middle_s)
         found = []
         sizes = np.bincount(labels.ravel(), minlength=number + 1)
         for label, track in sorted(tracks, key=lambda one: -int(sizes[one[0]]))[:MOST_OUTLINES]:
-            corners = self._corners(track, labels, label, force_n, places, sampled_n, since_ms, middle_s, duration_s)
-            outline = self._outline(track, corners, middle_s)
+            outline = self._outline(track, self._corners(track, label, frame), frame.middle_s)
             if outline is not None:
                 found.append(outline)
             track.last = outline
         return tuple(sorted(found, key=lambda outline: outline.number))
+
+    def _frame(
+        self,
+        labels: NDArray[np.intp],
+        image: NDArray[np.float32],
+        places: NDArray[np.uint16],
+        counts: NDArray[np.uint16],
+        end_s: float,
+        duration_s: float,
+    ) -> _Frame:
+        values = np.arange(self._force_n.size)
+        # The image predicts what was measured to the end of the frame, too far where a touch rises within a few frames.
+        # An outline is of the frame's middle, and its samples are compared with forces: those of the same samples.
+        measured = image.copy()
+        measured.ravel()[places] = counts
+        force_n = np.where(measured > 0, np.interp(measured, values, self._force_n), 0.0)
+        sampled_n = np.where(counts > self._noise_counts, np.interp(counts, values, self._force_n), 0.0)
+        # The last sample ends with the frame; they are evenly spaced.
+        before_end = np.arange(places.size)[::-1] / max(places.size, 1)
+        row, col = places // self._shape[1], places % self._shape[1]
+        since_ms = 1e3 * duration_s * (0.5 - before_end)
+        return _Frame(labels, force_n, row, col, sampled_n, since_ms, end_s - duration_s / 2, duration_s)
 
     def _labels(self, image: NDArray[np.float32]) -> tuple[NDArray[np.intp], int]:
         """The number of the contact of each taxel, 0: none, and how many there are."""
@@ -229,69 +270,57 @@ class OutlineTracer:
         self._tracks = list(matched.values())
         return sorted(matched.items())
 
-    def _corners(
-        self,
-        track: _Track,
-        labels: NDArray[np.intp],
-        label: int,
-        force_n: Array,
-        places: NDArray[np.uint16],
-        sampled_n: Array,
-        since_ms: Array,
-        middle_s: float,
-        duration_s: float,
-    ) -> Array:
-        """Rows and columns of the outline; empty where there is none."""
-        inside = track.mask
-        level_n = max(self.config.outlines_level * float(np.quantile(force_n[inside], _TOP)), self._least_n)
-        row, col = places // self._shape[1], places % self._shape[1]
+    def _corners(self, track: _Track, label: int, frame: _Frame) -> Array:
+        """Rows and columns of the outline of a contact, shape (n, 2); empty where there is none."""
+        inside, row, col, sampled_n = track.mask, frame.row, frame.col, frame.sampled_n
+        level_n = max(self.config.outlines_level * float(np.quantile(frame.force_n[inside], _TOP)), self._least_n)
+        age_s = frame.middle_s - track.began_s
         # Between what was measured an image is a guess, which may show contacts that are none.
         track.is_felt = track.is_felt or bool((sampled_n[inside[row, col]] > self._least_n).any())
         if not track.is_felt:
             return np.zeros((0, 2))
-        if middle_s - track.began_s > self.config.outlines_fast_s:
+        if age_s > self.config.outlines_fast_s:
             track.edge = None
-            return self._contour(labels, label, force_n, level_n)
+            return self._contour(frame, label, level_n)
         if track.edge is None:
-            edge = self._begun(inside, force_n, level_n, 1e3 * (middle_s - track.began_s), duration_s)
+            edge = self._begun(frame, inside, level_n, 1e3 * age_s)
             if edge is None:
                 return np.zeros((0, 2))
             track.edge = edge
         else:
             edge = track.edge
-            edge.predict(1e3 * (middle_s - track.began_s))
+            edge.predict(1e3 * age_s)
         patch = self._rectangle_of[inside][0]
-        other = (labels > 0) & (labels != label) | (self._rectangle_of != patch)
+        other = (frame.labels > 0) & (frame.labels != label) | (self._rectangle_of != patch)
         near = ~other[row, col] & (np.hypot(row - edge.row, col - edge.col) < edge.radius + _OUTSIDE)
         share = np.log(np.maximum(sampled_n[near] / level_n, 1e-6)) / (2 * np.log(_BAND))
-        edge.update(row[near].astype(float), col[near].astype(float), since_ms[near], np.clip(0.5 + share, 0.0, 1.0))
+        share = np.clip(0.5 + share, 0.0, 1.0)
+        edge.update(row[near].astype(float), col[near].astype(float), frame.since_ms[near], share)
         first_row, end_row, first_col, end_col = self._rectangles[patch]
         return np.clip(edge.corners(), (first_row - 0.5, first_col - 0.5), (end_row - 0.5, end_col - 0.5))
 
-    def _begun(
-        self, inside: NDArray[np.bool_], force_n: Array, level_n: float, since_ms: float, duration_s: float
-    ) -> EdgeFilter | None:
+    def _begun(self, frame: _Frame, inside: NDArray[np.bool_], level_n: float, since_ms: float) -> EdgeFilter | None:
         rows, cols = np.nonzero(inside)
         if rows.size < _LEAST_TAXELS:
             return None
-        weights = force_n[inside]
+        weights = frame.force_n[inside]
         whole = float(weights.sum())
         # The image may show what this frame has measured to be nothing.
         if whole <= 0:
             return None
         radius = math.sqrt(max(int(np.count_nonzero(weights > level_n)), 1) / math.pi)
         row, col = float(rows @ weights) / whole, float(cols @ weights) / whole
-        return EdgeFilter(row, col, radius, radius / (1e3 * duration_s + 1e-3), since_ms)
+        return EdgeFilter(row, col, radius, radius / (1e3 * frame.duration_s + 1e-3), since_ms)
 
-    def _contour(self, labels: NDArray[np.intp], label: int, force_n: Array, level_n: float) -> Array:
+    def _contour(self, frame: _Frame, label: int, level_n: float) -> Array:
         """The largest contour of one contact in the image."""
         from scipy import ndimage
 
-        mine = labels == label
+        mine = frame.labels == label
         first_row, end_row, first_col, end_col = self._rectangles[self._rectangle_of[mine][0]]
         there = np.s_[first_row:end_row, first_col:end_col]
         # Its own taxels and those beside it; between taxels the root of the force is nearer to a straight line.
-        field = np.where(ndimage.maximum_filter(mine[there], size=3), np.sqrt(force_n[there]), 0.0)
+        field = np.where(ndimage.maximum_filter(mine[there], size=3), np.sqrt(frame.force_n[there]), 0.0)
         loops = contours(field, float(np.sqrt(level_n)))
         largest = max(loops, key=area, default=np.zeros((0, 2)))
         if len(largest) < 3 or area(largest) < _LEAST_AREA:
