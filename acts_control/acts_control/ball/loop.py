@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.reference import ReferenceReport
-from acts_control.beat import Beat
+from acts_control.loop_rate import LoopRate
 from acts_control.robots.base import (
     CommandRefusedError,
     Robot,
@@ -249,9 +249,9 @@ class ControlLoop:
         gate = TiltGate(config)
         joints: tuple[float, ...] = ()
         steps = late = refused = 0
-        beat = Beat(period, self._steady_s, self._sleep)
+        rate = LoopRate(period, self._steady_s, self._sleep)
         while controller.state.phase is not Phase.STOPPED:
-            cycle = beat.wait()
+            cycle = rate.wait()
             steps += 1
             late += cycle.is_late
             dt = min(max(cycle.dt_s, _MIN_STEP_S), _MAX_PERIODS * period)

@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from acts_control.beat import Beat
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.beyond_limits import RETURN_RAD_S, beyond_reach, to_be_brought_back
 from acts_control.hand.control.fault_memory import FaultMemory
@@ -20,6 +19,7 @@ from acts_control.hand.control.status import HandPhase, HandStatus
 from acts_control.hand.control.torque_wish import CUT_POWER, PendingAnswer, TorqueWish
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
+from acts_control.loop_rate import LoopRate
 
 _NOT_FINITE = "the goals stand still, for what was asked for cannot be"
 
@@ -209,11 +209,11 @@ class HandLoop:
         """Read and command at the rate, until the hand is lost or the loop is to end."""
         period_s = 1.0 / self._config.rate_hz
         answered_s = time.monotonic()
-        beat = Beat(period_s)
+        rate = LoopRate(period_s)
         goal: list[float] = []
         try:
             while not self._closing.is_set():
-                now_s, dt_s, is_late = beat.wait()
+                now_s, dt_s, is_late = rate.wait()
                 self._count(cycles=1, late=int(is_late))
                 try:
                     reading = self._bus.read()

@@ -18,9 +18,9 @@ class Cycle(NamedTuple):
     Attributes
     ----------
     now_s : float
-        When it begins, by the clock of the `Beat` [s].
+        When it begins, by the clock of the `LoopRate` [s].
     dt_s : float
-        Since the begin of the one before, or of the `Beat` [s].
+        Since the begin of the one before, or of the `LoopRate` [s].
     is_late : bool
         Whether that is more than one and a half periods.
     """
@@ -30,7 +30,7 @@ class Cycle(NamedTuple):
     is_late: bool
 
 
-class Beat:
+class LoopRate:
     """Cycles at a fixed rate, by absolute deadlines.
 
     After a delay of more than a period it goes on from then: no burst of cycles makes up for lost ones.
