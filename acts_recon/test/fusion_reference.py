@@ -39,6 +39,7 @@ from acts_recon.fusion.fusion_kernels import (
     SHORTEST_S,
     SPREAD_PRIOR,
     TRUST_MEMORY_S,
+    UNMEASURED_MEMORY_S,
     ZERO_MARGIN,
 )
 from acts_recon.fusion.fusion_motion_kernels import AROUND, RIDGE
@@ -121,7 +122,7 @@ class FusionReference:
         since = self.age[at] - lag
         innovation = self._learn(at, y, lag, rate, unexplained, period_s)
         self._update(at, y, lag, rate, innovation, unexplained)
-        self._spread(at, y, innovation, since)
+        self._spread(at, y, innovation, since, period_s)
         self._show(rate, unexplained)
         self._update_sigma()
 
@@ -283,7 +284,9 @@ class FusionReference:
         self.value[at], self.age[at], self.fresh[at] = y, lag, True
         rate[at] += unexplained[at] * (self.slope[at] * np.exp(-lag / tuning.damping_s) - slope_before)
 
-    def _spread(self, at: tuple[NDArray[np.intp], ...], y: Floats, innovation: Floats, since: Floats) -> None:
+    def _spread(
+        self, at: tuple[NDArray[np.intp], ...], y: Floats, innovation: Floats, since: Floats, period_s: float
+    ) -> None:
         tuning = self._tuning
         step_rows, step_cols = np.indices((2 * REACH + 1,) * 2) - REACH
         square = (step_rows**2 + step_cols**2).astype(np.float64)
@@ -295,12 +298,12 @@ class FusionReference:
             return ndimage.convolve(field, near, mode="constant")
 
         weight = reached(1.0)
-        total, most = np.zeros(self.image.shape), np.zeros(self.image.shape)
+        total, least = np.zeros(self.image.shape), np.full(self.image.shape, COUNT_MAX, dtype=np.float64)
         age = np.clip(self.age, 0, LONGEST_AGE_S)
         limited = np.clip(since, SHORTEST_AGE_S, LONGEST_AGE_S)
         for row, col, count, change, over in zip(*at, y, innovation, limited, strict=True):
             around = (slice(max(row - REACH, 0), row + REACH + 1), slice(max(col - REACH, 0), col + REACH + 1))
-            most[around] = np.maximum(most[around], count)
+            least[around] = np.minimum(least[around], count)
             if abs(change) > QUIET_SIGMAS * self.noise[row, col]:
                 weights = near[around[0].start - row + REACH :, around[1].start - col + REACH :]
                 missed = np.minimum(age[around] / over, 1)
@@ -309,8 +312,9 @@ class FusionReference:
         to = ~self.fresh & (weight > 1e-9)
         shrunk = weight[to] + SPREAD_PRIOR
         self.estimate[to] = np.clip(self.estimate[to] + tuning.spread_gain * total[to] / shrunk, 0, COUNT_MAX)
-        fading = np.where(self.age[to] > LONGEST_AGE_S, weight[to] / shrunk, 0)
-        self.estimate[to] -= fading * np.maximum(self.estimate[to] - most[to], 0)
+        fade = 1 - np.exp(-period_s / UNMEASURED_MEMORY_S)
+        fading = np.where(self.age[to] > LONGEST_AGE_S, fade * weight[to] / shrunk, 0)
+        self.estimate[to] -= fading * np.maximum(self.estimate[to] - least[to], 0)
         self.process_noise[to] += (
             PROCESS_NOISE_GAIN * weight[to] / shrunk * (process_noise_total[to] / weight[to] - self.process_noise[to])
         )

@@ -18,7 +18,8 @@ instead of a covariance matrix. One frame takes five steps:
    taxels around it are corrected by inverse-distance interpolation: the mean of the innovations within two taxels,
    weighted by ``1 / distance^5``, times `spread_gain`. A taxel measured t ago is corrected by the share that arose
    since then: t over the time between the sample's measurements. One that was never measured is known by those around
-   it alone: what of its estimate is above all samples within two taxels fades, by the share of their weights.
+   it alone: what of its estimate is above the least of the samples within two taxels fades within some 10 ms, since
+   beyond the edge of a contact at least one of them reads little.
 4. **Image.** A taxel shows its last count and, as far as predictions are trusted, how it has changed since: those of
    this frame, too, since an image is of the end of its frame. Above half of the full scale none is shown to have risen
    beyond what was measured within the last `horizon_s`. A count that can be noise has no slope. The trust is the least

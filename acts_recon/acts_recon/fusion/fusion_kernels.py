@@ -61,6 +61,8 @@ OUTLIER = 25.0
 # Limits of ages that are divided; the longer one stands for never [s].
 SHORTEST_AGE_S = 1e-6
 LONGEST_AGE_S = 1e3
+# What the estimate of a taxel that was never measured has above the least sample around fades with this constant [s].
+UNMEASURED_MEMORY_S = 0.010
 # The correction of a taxel is halved where the weights of the samples around it sum up to this.
 SPREAD_PRIOR = 0.5
 
@@ -272,13 +274,20 @@ def _excess(innovation: np.float32, since: np.float32, noise_variance: np.float3
 
 
 @kernel(fastmath=FASTMATH, inline="always")
-def _spread(state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16], cols: int, tuning: Tuning) -> None:
+def _spread(
+    state: State,
+    indices: NDArray[np.uint16],
+    counts: NDArray[np.uint16],
+    period_s: float,
+    cols: int,
+    tuning: Tuning,
+) -> None:
     """Scatter the innovations to the taxels around the samples, then correct each taxel by their weighted mean."""
     m = indices.shape[0]
     total, process_noise_total, weight = state.total, state.process_noise_total, state.weight
     estimate, process_noise, fresh = state.estimate, state.process_noise, state.fresh
-    patches, patch_of, age, most = state.patches, state.patch_of, state.age, state.in_row
-    most[:] = _F(0)
+    patches, patch_of, age, least = state.patches, state.patch_of, state.age, state.in_row
+    least[:] = _TOP
     for k in range(m):
         i = int(np.int64(indices[k]))
         row = i // cols
@@ -300,18 +309,18 @@ def _spread(state: State, indices: NDArray[np.uint16], counts: NDArray[np.uint16
                 total[beside] += near * innovation * min(min(age[beside], _F(LONGEST_AGE_S)) * per_s, _F(1))
                 process_noise_total[beside] += near * own_noise
                 weight[beside] += near
-                most[beside] = max(most[beside], count)
+                least[beside] = min(least[beside], count)
                 beside += np.uint64(1)
                 place += np.uint64(1)
-    gain = _F(tuning.spread_gain)
+    gain, fade = _F(tuning.spread_gain), _F(1.0 - math.exp(-period_s / UNMEASURED_MEMORY_S))
     # All taxels without a branch, so that the compiler vectorises; where no weight arrived,
     # and of what was measured, nothing changes.
     for j in range(estimate.shape[0]):
         share = (_F(0) if fresh[j] else _F(1)) / (weight[j] + _F(SPREAD_PRIOR))
         estimate[j] = min(max(estimate[j] + gain * total[j] * share, _F(0)), _TOP)
-        # A taxel that was never measured is known by those around it alone: what is above all of them fades.
-        fading = weight[j] * share if age[j] > _F(LONGEST_AGE_S) else _F(0)
-        estimate[j] -= fading * max(estimate[j] - most[j], _F(0))
+        # A taxel that was never measured is known by those around it alone: it is no part of a contact that ends there.
+        fading = fade * weight[j] * share if age[j] > _F(LONGEST_AGE_S) else _F(0)
+        estimate[j] -= fading * max(estimate[j] - least[j], _F(0))
         learnt = (process_noise_total[j] - weight[j] * process_noise[j]) * share
         updated = process_noise[j] + _F(PROCESS_NOISE_GAIN) * learnt
         process_noise[j] = updated if updated > TINY else _F(0)
@@ -353,6 +362,6 @@ def fuse(
     _predict(state, period_s, cols, tuning)
     _learn(state, indices, counts, period_s, lag_step_s, tuning)
     _update(state, indices, counts, lag_step_s, tuning)
-    _spread(state, indices, counts, cols, tuning)
+    _spread(state, indices, counts, period_s, cols, tuning)
     show(state, cols, tuning)
     update_sigma(state, cols, tuning)

@@ -14,6 +14,7 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_core.skin import ForceResponse
 from acts_recon.frame_recovery import FrameRecovery
+from acts_recon.fusion import FusionEstimator
 from acts_recon.methods import METHODS
 from acts_recon.settings import ReconstructionSettings
 
@@ -67,3 +68,24 @@ def test_the_uncertainty_says_what_was_never_measured() -> None:
     assert np.isfinite(recovery.image).all()
     assert recovery.age_s[ROW, COL] < 1e-3
     assert recovery.age_s[far].min() > 0.9 * FRAMES * 1e-3
+
+
+@pytest.mark.parametrize("m", [128, 256])
+def test_a_press_from_the_first_frame_on_has_no_rim_of_taxels_that_were_never_measured(m: int) -> None:
+    """`adaptive` never measures beyond an edge that reads little."""
+    truth = np.zeros((32, 32), dtype=np.uint16)
+    truth[8:12, 14:20] = [
+        [0, 0, 0, 1, 39, 16],
+        [0, 17, 65, 92, 90, 38],
+        [0, 63, 56, 103, 109, 35],
+        [0, 0, 0, 17, 0, 0],
+    ]
+    sampler = Sampler(SamplingConfig("adaptive", m=m, threshold_counts=50))
+    estimator = FusionEstimator(GEOMETRY)
+    period_s = m * 17.877e-6
+    for number in range(round(0.06 / period_s)):
+        indices, counts = sampler.frame(measure_in(truth))
+        image = estimator.step(indices, counts, number * period_s, period_s)
+    never = np.isinf(estimator.age_s)
+    assert never.sum() > 100
+    assert image[never].max() <= 2
