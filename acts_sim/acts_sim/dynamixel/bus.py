@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from acts_sim.dynamixel.control_table import EEPROM_END, NO_SECONDARY_ID
 from acts_sim.dynamixel.motor import Motor, StatusError
 from acts_sim.dynamixel.packets import (
     BROADCAST_ID,
@@ -80,6 +81,8 @@ class Bus:
             self._bulk_write(packet.parameters)
             return Answer()
         if packet.motor_id != BROADCAST_ID:
+            if packet.instruction == Instruction.WRITE and len(packet.parameters) > 2:
+                self._write_followers(packet.motor_id, _word(packet.parameters, 0), packet.parameters[2:])
             called = self.find(packet.motor_id)
             return Answer() if called is None else _answer_of(called, packet)
         # Of all broadcasts only a ping is answered, by one motor after the other.
@@ -123,17 +126,30 @@ class Bus:
     def _sync_write(self, parameters: bytes) -> None:
         address, size = _word(parameters, 0), _word(parameters, 2)
         for k in range(4, len(parameters) - size, 1 + size):
-            motor = self.find(parameters[k])
-            if motor is not None:
-                motor.write(address, parameters[k + 1 : k + 1 + size])
+            self._write(parameters[k], address, parameters[k + 1 : k + 1 + size])
 
     def _bulk_write(self, parameters: bytes) -> None:
         k = 0
         while k + 5 <= len(parameters):
-            motor, address, size = self.find(parameters[k]), _word(parameters, k + 1), _word(parameters, k + 3)
-            if motor is not None:
-                motor.write(address, parameters[k + 5 : k + 5 + size])
+            address, size = _word(parameters, k + 1), _word(parameters, k + 3)
+            self._write(parameters[k], address, parameters[k + 5 : k + 5 + size])
             k += 5 + size
+
+    def _write(self, motor_id: int, address: int, data: bytes) -> None:
+        """A write that nobody answers."""
+        motor = self.find(motor_id)
+        if motor is not None:
+            motor.write(address, data)
+        self._write_followers(motor_id, address, data)
+
+    def _write_followers(self, motor_id: int, address: int, data: bytes) -> None:
+        """Write to the motors that have this as their secondary ID: only the RAM, and without a reply."""
+        if address < EEPROM_END or motor_id >= NO_SECONDARY_ID:
+            return
+        for motor in self.motors:
+            own_id = motor.motor_id
+            if motor["secondary_id"] == motor_id != own_id and own_id not in self.lost:
+                motor.write(address, data)
 
 
 def _word(data: bytes, at: int) -> int:

@@ -23,6 +23,12 @@ INDIRECT_DATA = 208
 
 TICKS_PER_TURN = 4096
 
+LARGEST_PWM = 885
+"""The whole voltage."""
+
+NO_SECONDARY_ID = 253
+"""From here on a secondary ID is none."""
+
 
 @dataclass(frozen=True)
 class Register:
@@ -89,7 +95,7 @@ _REGISTERS = (
     Register("temperature_limit", 31, 1, 70, 0, 100),
     Register("max_voltage_limit", 32, 2, 70, 31, 70),
     Register("min_voltage_limit", 34, 2, 35, 31, 70),
-    Register("pwm_limit", 36, 2, 885, 0, 885),
+    Register("pwm_limit", 36, 2, LARGEST_PWM, 0, LARGEST_PWM),
     Register("current_limit", 38, 2, 2352, 0, 2352),
     Register("velocity_limit", 44, 4, 380, 0, 2047),
     Register("max_position_limit", 48, 4, 4095, 0, 4095),
@@ -111,7 +117,7 @@ _REGISTERS = (
     Register("feedforward_1st_gain", 90, 2, 0, 0, 16383),
     # Units of 20 ms; 255 reads as expired.
     Register("bus_watchdog", 98, 1, 0, 0, 127),
-    Register("goal_pwm", 100, 2, 885, -885, 885),
+    Register("goal_pwm", 100, 2, LARGEST_PWM, -LARGEST_PWM, LARGEST_PWM),
     Register("goal_current", 102, 2, 2352, -2352, 2352),
     Register("goal_velocity", 104, 4, 0, -2047, 2047),
     Register("profile_acceleration", 108, 4, 0, 0, 32767),

@@ -81,9 +81,9 @@ class PositionControl:
         return min(max(wanted, -cap_ma), cap_ma)
 
 
-def torque_nm(model: Model, current_ma: float, velocity_rad_s: float) -> tuple[float, float]:
-    """Actual current [mA] and its torque [N m]; the back-EMF limits the current at speed."""
-    room = 1.0 - math.copysign(1.0, current_ma) * velocity_rad_s / model.no_load_speed_rad_s
+def torque_nm(model: Model, current_ma: float, velocity_rad_s: float, duty: float = 1.0) -> tuple[float, float]:
+    """Actual current [mA] and its torque [N m]; the duty of the voltage and the back-EMF at speed limit the current."""
+    room = duty - math.copysign(1.0, current_ma) * velocity_rad_s / model.no_load_speed_rad_s
     largest = model.stall_current_ma * min(max(room, 0.0), 1.0)
     flowing = math.copysign(min(abs(current_ma), largest), current_ma)
     return flowing, flowing * model.stall_torque_nm / model.stall_current_ma

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 
-from acts_sim.dynamixel.control_table import EEPROM_END, INDIRECT_COUNT, INDIRECT_DATA, SIZE, Model
+from acts_sim.dynamixel.control_table import EEPROM_END, INDIRECT_COUNT, INDIRECT_DATA, LARGEST_PWM, SIZE, Model
 from acts_sim.dynamixel.drive import (
     RAD_PER_TICK,
     RAD_S_PER_VELOCITY_UNIT,
@@ -295,7 +295,8 @@ class Motor:
         self._since_start_s += dt_s
         self._watch_bus(dt_s)
         current_ma = self._wanted_current_ma(dt_s) if self._values["torque_enable"] else 0.0
-        current_ma, self.torque_nm = torque_nm(self.model, current_ma, self.shaft.velocity_rad_s)
+        duty = min(abs(self._values["goal_pwm"]), self._values["pwm_limit"]) / LARGEST_PWM
+        current_ma, self.torque_nm = torque_nm(self.model, current_ma, self.shaft.velocity_rad_s, duty)
         self._values["present_current"] = round(current_ma)
         self._watch_load(current_ma, dt_s)
         if self._values["present_temperature"] > self._values["temperature_limit"]:

@@ -215,3 +215,35 @@ def test_a_motor_that_stalls_for_long_switches_itself_off_where_that_is_wanted()
         assert motor["torque_enable"] == (0 if expected else 1)
         motor.reboot()
         assert motor["hardware_error_status"] == 0
+
+
+def test_a_motor_does_what_its_secondary_id_is_told_and_does_not_answer() -> None:
+    motors = [Motor(XC330, motor_id) for motor_id in range(3)]
+    bus = Bus(motors)
+    alone = bus.handle(Packet(0, Instruction.WRITE, bytes([65, 0, 0]))).data
+    assert write(motors[2], 12, 0) == 0
+    assert bus.handle(Packet(0, Instruction.WRITE, bytes([65, 0, 1]))).data == alone
+    assert [motor["led"] for motor in motors] == [1, 0, 1]
+    bus.handle(Packet(254, Instruction.SYNC_WRITE, bytes([65, 0, 1, 0, 0, 0])))
+    assert [motor["led"] for motor in motors] == [0, 0, 0]
+    bus.handle(Packet(254, Instruction.BULK_WRITE, bytes([0, 65, 0, 1, 0, 1])))
+    assert [motor["led"] for motor in motors] == [1, 0, 1]
+    # The EEPROM is written by the own ID alone; and none is one.
+    bus.handle(Packet(0, Instruction.WRITE, bytes([9, 0, 7])))
+    assert [motor["return_delay_time"] for motor in motors] == [7, 250, 250]
+    assert write(motors[2], 12, 255) == 0
+    bus.handle(Packet(0, Instruction.WRITE, bytes([65, 0, 0])))
+    assert [motor["led"] for motor in motors] == [0, 0, 1]
+
+
+@pytest.mark.parametrize(("address", "name"), [(36, "pwm_limit"), (100, "goal_pwm")])
+def test_less_pwm_weakens_a_motor(address: int, name: str) -> None:
+    motor, joints = holding(cap_ma=2352)
+    write(motor, TORQUE, 0)
+    assert write(motor, address, 177, 2) == 0
+    assert motor[name] == 177
+    write(motor, TORQUE, 1)
+    assert write(motor, GOAL, 4000, 4) == 0
+    joints.step(0.002)
+    # A fifth of the voltage, and of the current at a stall.
+    assert value(motor, PRESENT_CURRENT, 2) == 360

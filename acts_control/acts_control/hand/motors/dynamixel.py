@@ -279,6 +279,8 @@ class DynamixelHand:
         for register, gain in zip((table.P_GAIN, table.I_GAIN, table.D_GAIN), self._gains[index], strict=True):
             self._port.write(joint, register, gain)
         self._port.write(joint, table.GOAL_CURRENT, self._config.max_current_ma)
+        # What another program has left would weaken the motor.
+        self._port.write(joint, table.GOAL_PWM, self._port.read(joint, table.PWM_LIMIT))
         # Goals come at a limited speed already; what another program has left would be a second limit.
         for register in (table.PROFILE_ACCELERATION, table.PROFILE_VELOCITY):
             self._port.write(joint, register, 0)

@@ -3,7 +3,8 @@
 
 """What somebody may have set in the EEPROM of the motors, which a hand cannot be moved with, or not well.
 
-The limits of the position are not looked at: they do not count in current-based position control.
+The limits of the position are not looked at: they do not count in current-based position control. Nor is that of the
+velocity, which is one of the goal velocity alone.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], config: Dynamixel
     Raises
     ------
     HandError
-        Naming all motors that turn the other way, count from another zero, or switch their torque on by themselves;
-        or all that allow less current than the settings.
+        Naming all motors that turn the other way, count from another zero, switch their torque on by themselves, or do
+        what another motor is told; or all that allow less current than the settings.
     """
     registers = dict.fromkeys(register for register, _, _ in _REFUSED)
     values = {register: [port.read(joint, register) for joint in joints] for register in registers}
@@ -58,14 +59,32 @@ def check_eeprom(port: DynamixelPort, joints: Sequence[Joint], config: Dynamixel
         those = [joint for joint, value in zip(joints, values[register], strict=True) if value & bits]
         if those:
             wrong.append(f"{words}: {_names(those)}")
+    following = _following(port, joints)
+    if following:
+        wrong.append(f"they do what another motor is told, too (secondary ID, register 12): {following}")
     if wrong:
         raise HandError(
-            f"motors are set up as this hand cannot be moved: {'; '.join(wrong)}. Set these to 0 with DYNAMIXEL "
-            f"Wizard; where a joint really turns the other way or has another zero, its description says so "
-            f"(zero_rad and direction)"
+            f"motors are set up as this hand cannot be moved: {'; '.join(wrong)}. Set these to 0, a secondary ID to "
+            f"255, with DYNAMIXEL Wizard; where a joint really turns the other way or has another zero, its "
+            f"description says so (zero_rad and direction)"
         )
     _check_current_limit(port, joints, config.max_current_ma)
-    return [*_unprotected(port, joints), *_return_delay(port, joints, set_return_delay=config.set_return_delay)]
+    return [
+        *_unprotected(port, joints),
+        *_weakened(port, joints),
+        *_return_delay(port, joints, set_return_delay=config.set_return_delay),
+    ]
+
+
+def _following(port: DynamixelPort, joints: Sequence[Joint]) -> str:
+    """Motors that take the goals of others of this hand, with those others, for a person; empty for none."""
+    others = {joint.motor_id: joint for joint in joints}
+    found = []
+    for joint in joints:
+        secondary_id = port.read(joint, table.SECONDARY_ID)
+        if secondary_id in others and secondary_id != joint.motor_id:
+            found.append(f"{name_of(joint)} follows {name_of(others[secondary_id])}")
+    return ", ".join(found)
 
 
 def _check_current_limit(port: DynamixelPort, joints: Sequence[Joint], max_current_ma: int) -> None:
@@ -87,6 +106,18 @@ def _unprotected(port: DynamixelPort, joints: Sequence[Joint]) -> list[str]:
     return [
         f"motors that do not switch themselves off at overheating, electrical shock or overload (shutdown, register "
         f"63), and may burn: {_names(those)}: set it to {table.PROTECTING} with DYNAMIXEL Wizard"
+    ]
+
+
+def _weakened(port: DynamixelPort, joints: Sequence[Joint]) -> list[str]:
+    limits = [port.read(joint, table.PWM_LIMIT) for joint in joints]
+    those = [joint for joint, limit in zip(joints, limits, strict=True) if limit < table.LARGEST_PWM]
+    if not those:
+        return []
+    return [
+        f"motors that are weaker and slower than they can be, for their PWM is limited (PWM limit, register 36), the "
+        f"most to {100 * min(limits) / table.LARGEST_PWM:.0f} %: {_names(those)}: set it to {table.LARGEST_PWM} with "
+        f"DYNAMIXEL Wizard"
     ]
 
 

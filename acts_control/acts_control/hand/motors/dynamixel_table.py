@@ -20,10 +20,11 @@ class Register(NamedTuple):
 
 
 RETURN_DELAY, DRIVE_MODE, MODE, HOMING_OFFSET = Register(9, 1), Register(10, 1), Register(11, 1), Register(20, 4)
-CURRENT_LIMIT, STARTUP, SHUTDOWN = Register(38, 2), Register(60, 1), Register(63, 1)
+SECONDARY_ID, PWM_LIMIT, CURRENT_LIMIT = Register(12, 1), Register(36, 2), Register(38, 2)
+STARTUP, SHUTDOWN = Register(60, 1), Register(63, 1)
 TORQUE, RETURN_LEVEL, HARDWARE_ERROR = Register(64, 1), Register(68, 1), Register(70, 1)
 D_GAIN, I_GAIN, P_GAIN = Register(80, 2), Register(82, 2), Register(84, 2)
-WATCHDOG, GOAL_CURRENT, GOAL_POSITION = Register(98, 1), Register(102, 2), Register(116, 4)
+WATCHDOG, GOAL_PWM, GOAL_CURRENT, GOAL_POSITION = Register(98, 1), Register(100, 2), Register(102, 2), Register(116, 4)
 PROFILE_ACCELERATION, PROFILE_VELOCITY = Register(108, 4), Register(112, 4)
 CURRENT, POSITION, TEMPERATURE = Register(126, 2), Register(132, 4), Register(146, 1)
 INDIRECT_ADDRESSES = tuple(Register(address, 2) for address in range(168, 208, 2))
@@ -35,6 +36,7 @@ REVERSED, TORQUE_ON_BY_GOAL = 1 << 0, 1 << 3  # of the drive mode
 TORQUE_ON_AT_START = 1 << 0  # of the start-up configuration
 PROTECTING = 1 << 2 | 1 << 4 | 1 << 5  # of the shutdown: heat, electrical shock, overload
 LARGEST_GAIN = 16383
+LARGEST_PWM = 885
 
 WATCHDOG_UNIT_S = 0.02
 WATCHDOG_EXPIRED = 255

@@ -15,7 +15,8 @@ from acts_control.hand.motors.dynamixel_table import Register
 
 pytestmark = pytest.mark.slow
 
-DRIVE_MODE, HOMING_OFFSET, CURRENT_LIMIT = Register(10, 1), Register(20, 4), Register(38, 2)
+DRIVE_MODE, SECONDARY_ID, HOMING_OFFSET = Register(10, 1), Register(12, 1), Register(20, 4)
+PWM_LIMIT, CURRENT_LIMIT, GOAL_PWM = Register(36, 2), Register(38, 2), Register(100, 2)
 MAX_POSITION, STARTUP, SHUTDOWN = Register(48, 4), Register(60, 1), Register(63, 1)
 PROFILE_ACCELERATION, PROFILE_VELOCITY = Register(108, 4), Register(112, 4)
 
@@ -71,6 +72,22 @@ def test_motors_that_would_move_otherwise_than_they_are_told_are_refused(
     assert bus.hand().connect() == []
 
 
+def test_a_motor_that_does_what_another_is_told_is_refused_with_both_names(bus: Bus) -> None:
+    # Its own number, one that no motor has, and those from 253 on lead nowhere.
+    leave(bus, SECONDARY_ID, {3: 5, 6: 6, 8: 200, 9: 253, 12: 0})
+    hand = bus.hand()
+    told = (
+        r"do what another motor is told, too \(secondary ID, register 12\): 3 \(index_dip\) follows 5 "
+        r"\(middle_mcp_forward\), 12 \(thumb_cmc\) follows 0 \(index_mcp_side\)\. .*a secondary ID to 255"
+    )
+    with pytest.raises(HandError, match=told):
+        hand.connect()
+    assert torques(bus) == {0}
+    hand.close()
+    leave(bus, SECONDARY_ID, {3: 255, 12: 255})
+    assert bus.hand().connect() == []
+
+
 def test_all_that_is_wrong_is_told_at_once(bus: Bus) -> None:
     leave(bus, DRIVE_MODE, {3: 1})
     leave(bus, HOMING_OFFSET, {5: 100})
@@ -86,6 +103,24 @@ def test_motors_that_allow_less_current_are_refused_by_name(bus: Bus) -> None:
         hand.connect()
     hand.close()
     assert bus.hand(max_current_ma=300).connect() == []
+
+
+def test_motors_whose_pwm_is_limited_are_told_by_name(bus: Bus) -> None:
+    leave(bus, PWM_LIMIT, {3: 600, 12: 443})
+    (told,) = bus.hand().connect()
+    assert "weaker and slower" in told
+    assert "the most to 50 %: 3 (index_dip), 12 (thumb_cmc): set it to 885" in told
+
+
+def test_a_goal_pwm_that_another_program_has_left_weakens_nothing(bus: Bus) -> None:
+    hand = bus.hand()
+    assert hand.connect() == []  # from another mode, which would bring it back
+    hand.close()
+    leave(bus, GOAL_PWM, {3: 100})
+    hand = bus.hand()
+    assert hand.connect() == []
+    hand.close()
+    assert left(bus, GOAL_PWM) == {885}
 
 
 def test_a_motor_that_would_not_protect_itself_is_told(bus: Bus) -> None:
