@@ -1,10 +1,12 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Clocks of nodes: timers that a change of the clock does not stop, and nodes that refuse simulated time."""
+"""Clocks of nodes: timers that a change of the clock does not stop, nodes that refuse simulated time, and stalls."""
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -15,6 +17,10 @@ from rclpy.parameter import Parameter
 from rclpy.timer import Timer
 
 _USE_SIM_TIME = "use_sim_time"
+
+# Who has had no answer for so long may have given up, and may have come near what he wanted to move.
+_STALL_S = 1.0
+_LOOK_PERIOD_S = 0.1
 
 
 def steady_timer(node: Node, period_s: float, callback: Callable[[], Any]) -> Timer:
@@ -62,3 +68,36 @@ def keep_system_clock(node: Node, reason: str) -> None:
         )
         node.set_parameters([Parameter(_USE_SIM_TIME, value=False)])
     node.add_on_set_parameters_callback(refuse)
+
+
+class Stalls:
+    """Notices that a node has stood still: what was asked for meanwhile arrives afterwards as if it were new.
+
+    It stands still while its process does (Ctrl-Z, Ctrl-S in its terminal, a debugger, a machine that is far too busy).
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Its executor serves what is asked for.
+    longest_s : float
+        How long it may stand still without consequences, and how long afterwards requests count as old [s].
+    """
+
+    def __init__(self, node: Node, longest_s: float = _STALL_S) -> None:
+        self._longest_s = longest_s
+        self._looked_s = self._ended_s = -math.inf
+        self._stood_still_s = 0.0
+        self._timer = steady_timer(node, _LOOK_PERIOD_S, self._look)
+
+    def objection(self) -> str:
+        """Why a motion that is asked for now may have been meant for earlier, and what to do; empty where it cannot."""
+        if self._look() - self._ended_s > self._longest_s:
+            return ""
+        return f"this program stood still for {self._stood_still_s:.1f} s, and was perhaps asked meanwhile; ask again"
+
+    def _look(self) -> float:
+        now_s, before_s = time.monotonic(), self._looked_s
+        self._looked_s = now_s
+        if math.isfinite(before_s) and now_s - before_s > self._longest_s:
+            self._ended_s, self._stood_still_s = now_s, now_s - before_s
+        return now_s

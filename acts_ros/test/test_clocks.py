@@ -1,9 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Timers and simulated time; ROS_DOMAIN_ID 177."""
+"""Timers, simulated time and nodes that stand still; ROS_DOMAIN_ID 177."""
 
-from collections.abc import Iterator
+import re
+import time
+from collections.abc import Callable, Iterator
 
 import pytest
 import rclpy
@@ -14,7 +16,7 @@ from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from acts_ros.clocks import keep_system_clock, steady_timer
+from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
 from acts_ros.parameters import node_options
 
 
@@ -62,3 +64,30 @@ def test_a_node_that_keeps_the_systems_clock_says_so(
     assert not result.successful
     assert result.reason == "/plate/example runs on the system's clock: the board does not wait"
     assert node.get_clock().now().nanoseconds > 10**18
+
+
+def test_what_is_asked_for_after_a_node_stood_still_is_told_from_what_is_new(context: Context) -> None:
+    node = make_node(context)
+    stalls = Stalls(node, longest_s=0.5)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+
+    def spin_until(condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + 30.0
+        while not condition():
+            assert time.monotonic() < end_s
+            executor.spin_once(timeout_sec=0.05)
+
+    # However long a node takes to be made.
+    assert stalls.objection() == ""
+    spin_until(lambda: stalls.objection() == "")
+    begin_s = time.monotonic()
+    while time.monotonic() - begin_s < 1.0:
+        pass
+    told = re.fullmatch(
+        r"this program stood still for (\d+\.\d) s, and was perhaps asked meanwhile; ask again", stalls.objection()
+    )
+    assert told is not None
+    assert float(told[1]) >= 1.0
+    assert stalls.objection() != ""
+    spin_until(lambda: stalls.objection() == "")

@@ -29,7 +29,7 @@ from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
-from acts_ros.clocks import keep_system_clock, steady_timer
+from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
@@ -106,6 +106,7 @@ class BallControlNode(Node):
         if subscribes:
             self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
             self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
+        self._stalls = Stalls(self)
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
         self._status_timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
@@ -182,6 +183,9 @@ class BallControlNode(Node):
         self._tilt_publisher.publish(self._tilt)
 
     def _on_start(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.message = self._stalls.objection()
+        if response.message:
+            return response
         response.success = self._loop.start()
         status = self._loop.status
         if response.success:

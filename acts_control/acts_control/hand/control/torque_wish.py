@@ -35,6 +35,11 @@ class PendingAnswer:
         self._words = words
         self._until_s = time.monotonic() + (_ANSWER_S if waits else 0.0)
 
+    @classmethod
+    def known(cls, words: str) -> PendingAnswer:
+        """One that need not be waited for."""
+        return cls(threading.Event(), lambda: words, waits=False)
+
     def poll(self) -> str | None:
         """The answer; None as long as it is to be waited for."""
         if not self._is_known.is_set() and time.monotonic() < self._until_s:

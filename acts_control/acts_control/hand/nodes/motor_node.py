@@ -18,7 +18,7 @@ from acts_control.hand.nodes.cmd_leap import TORQUE_STAYS, CmdLeapBus
 from acts_control.hand.nodes.torque_services import TorqueServices
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.settings import setting
-from acts_ros.clocks import keep_system_clock
+from acts_ros.clocks import Stalls, keep_system_clock
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.log import log_of
 from acts_ros.messages import check_frame_id
@@ -92,7 +92,8 @@ class MotorNode(PollingNode):
         # The first angles that a new node sends open the hand, and what it holds then falls: that has to be asked for.
         config = replace(settings, autostart=False) if settings.interface == _CMD_LEAP else settings
         self.loop = HandLoop(self.hand, bus, config, log_of(self), self._on_reading, behaviour)
-        asks = {"~/enable": self.loop.ask_enable, f"~/{torque_off}": self._ask_release}
+        self.stalls = Stalls(self)
+        asks = {"~/enable": self._ask_enable, f"~/{torque_off}": self._ask_release}
         self.torque_services = TorqueServices(self, asks)
         # Nothing else keeps a second program from the motors there.
         only = [moved_by, _CMD_LEAP] if settings.interface == _CMD_LEAP else [moved_by]
@@ -131,13 +132,13 @@ class MotorNode(PollingNode):
             values["largest_current_ma"] = max(map(abs, status.reading.current_ma))
         return level, words, values
 
-    def why_still(self) -> str:
-        """Why the hand cannot move now, and what to do; empty where it can."""
+    def why_still(self, *, to_move: bool = True) -> str:
+        """Why the hand cannot move now, and, if it is meant `to_move`, what to do; empty where it can."""
         status = self.loop.status
         if status.phase is HandPhase.ENABLED:
             return ""
         state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
-        advice = "; call enable" if status.phase is HandPhase.RELEASED else ""
+        advice = "; call enable" if to_move and status.phase is HandPhase.RELEASED else ""
         if self.loop.is_torque_wanted:
             advice = "; as soon as it can, its torque comes on and its joints stand still, unless that is switched off"
         return f"the hand is {state}: {status.reason}{advice}"
@@ -150,6 +151,10 @@ class MotorNode(PollingNode):
         message.velocity = list(reading.qd_rad_s)
         message.effort = list(reading.current_ma)
         self._publisher.publish(message)
+
+    def _ask_enable(self) -> PendingAnswer:
+        objection = self.stalls.objection()
+        return PendingAnswer.known(objection) if objection else self.loop.ask_enable()
 
     def _ask_release(self) -> PendingAnswer:
         pending = self.loop.ask_release()

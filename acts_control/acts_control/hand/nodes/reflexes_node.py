@@ -183,8 +183,8 @@ class HandReflexesNode(MotorNode):
         self._told = SupervisorStatus()
         self._reported_refused = 0
         self.start_with(settings, self._touched, "disable", "regions")
-        for name in ("grasp", "release"):
-            self.create_service(Trigger, f"~/{name}", self._answer(name))
+        self.create_service(Trigger, "~/grasp", self._on_grasp)
+        self.create_service(Trigger, "~/release", self._on_release)
         self.create_service(Trigger, "~/stop", self._on_stop)
         steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)
         steady_timer(self, _TIMING_PERIOD_S, self._publish_timing)
@@ -214,23 +214,24 @@ class HandReflexesNode(MotorNode):
         if self.loop.status.phase is not HandPhase.ENABLED:
             self._touched.watch(time.monotonic())
 
-    def _answer(self, name: str) -> Callable[[Trigger.Request, Trigger.Response], Trigger.Response]:
-        def on_request(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            self.torque_services.serve()  # what was asked for before this
-            return answered(response, self._why_not() or getattr(self._supervisor, name)())
+    def _on_grasp(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self.torque_services.serve()  # what was asked for before this
+        return answered(response, self.stalls.objection() or self._why_not() or self._supervisor.grasp())
 
-        return on_request
+    def _on_release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self.torque_services.serve()
+        return answered(response, self._why_not() or self._supervisor.release())
 
-    def _on_stop(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+    def _on_stop(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         # Who stops a hand whose torque is about to come on does not expect that it comes on afterwards.
         self.torque_services.serve()
         if self.loop.cancel_enable():
             return answered(response, "")
-        return self._answer("stop")(request, response)
+        return answered(response, self._why_not(to_move=False) or self._supervisor.stop())
 
-    def _why_not(self) -> str:
+    def _why_not(self, *, to_move: bool = True) -> str:
         """Why nothing can be asked of the hand; while a motor is started anew, what is asked for is done after that."""
-        return "" if self.loop.status.phase is HandPhase.RECOVERING else self.why_still()
+        return "" if self.loop.status.phase is HandPhase.RECOVERING else self.why_still(to_move=to_move)
 
     def _present(self) -> SupervisorStatus:
         """What the hand is about: without torque nothing, whatever it was about when it had some."""

@@ -138,7 +138,11 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         refused = called("grasp")
         assert not refused.success
         assert refused.message == "the hand is released: released by request; call enable"
+        # Who stops a hand is not told to switch its torque on.
+        assert called("stop").message == "the hand is released: released by request"
         # Who has enabled a hand can move it at once. On a busy machine the answer may come before the torque does.
+        enabled = called("enable")
+        assert enabled.success or "as soon as it can, its torque comes on" in enabled.message
         until(lambda: called("enable").success)
         assert called("stop").success
         until(lambda: statuses[-1].reason == "stopped by request")
@@ -146,6 +150,43 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
     assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+
+
+def test_a_hand_does_not_begin_to_move_by_what_was_asked_for_while_its_program_stood_still(bus: Bus) -> None:
+    parameters = (f"port:={bus.link}", f"answer_timeout_ms:={TIMEOUT_MS}", "silence_s:=2.0", "autostart:=false")
+    quiet = ("motor_watchdog_s:=0.0", "rate_hz:=100.0")
+    with node_and_user(DOMAIN_ID, *parameters, *quiet, program="hand_reflexes") as (process, node, until):
+        reports: list[DiagnosticArray] = []
+        node.create_subscription(DiagnosticArray, "/diagnostics", reports.append, 10)
+        clients = {
+            name: node.create_client(Trigger, f"hand_reflexes/{name}") for name in ("enable", "grasp", "disable")
+        }
+        until(lambda: all(client.service_is_ready() for client in clients.values()))
+        until(lambda: any("connected" in status.message for report in reports for status in report.status))
+
+        def asked_while_it_stands_still(name: str) -> Trigger.Response:
+            process.send_signal(signal.SIGSTOP)
+            future = clients[name].call_async(Trigger.Request())
+            begin_s = time.monotonic()
+            until(lambda: time.monotonic() - begin_s > 1.5)
+            process.send_signal(signal.SIGCONT)
+            until(future.done)
+            return future.result()
+
+        def obeys(name: str) -> bool:
+            future = clients[name].call_async(Trigger.Request())
+            until(future.done)
+            return bool(future.result().success)
+
+        for name in ("enable", "grasp"):
+            answer = asked_while_it_stands_still(name)
+            assert not answer.success
+            assert answer.message.startswith("this program stood still for ")
+        assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+        until(lambda: obeys("enable"))
+        # What ends motion is done, however old.
+        assert asked_while_it_stands_still("disable").success
+        assert {motor["torque_enable"] for motor in bus.motors()} == {0}
 
 
 def test_touch_is_known_while_the_torque_is_off(bus: Bus) -> None:
