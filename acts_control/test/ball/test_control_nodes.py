@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from control_rig import Bench, Process, node_command, wait_for
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball.nodes.ball_state_node import BallStateNode
@@ -118,27 +119,49 @@ def test_state_uses_the_tilt_and_tells_when_the_ball_is_gone(bench: Bench) -> No
     assert (state.position.x, state.velocity.x, state.position_sigma) == (0.0, 0.0, 0.0)
 
 
+def reports_of(bench: Bench) -> list[DiagnosticStatus]:
+    """What the nodes report from now on; to be called before the bench spins."""
+    reports: list[DiagnosticStatus] = []
+    bench.node.create_subscription(DiagnosticArray, "/diagnostics", lambda message: reports.extend(message.status), 10)
+    return reports
+
+
 @pytest.mark.parametrize("bench", [62], indirect=True)
-def test_a_nan_in_a_contact_is_counted_and_reported(bench: Bench) -> None:
-    node = start_state_node(bench)
+def test_a_nan_in_a_contact_is_counted_and_reported_once(bench: Bench) -> None:
+    reports = reports_of(bench)
+    start_state_node(bench)
+    wait_for(lambda: bool(reports), "a report")
     publish_contacts(bench, list(range(100)))
     bench.publish_contact(100, bench.now_ns(), float("nan"), 0.0)
     bench.publish_contact(101, bench.now_ns(), 0.01, -0.02)
     wait_for(lambda: bool(bench.statistics) and bench.statistics[-1].received == 102, "the statistics")
     assert all(np.isfinite([state.position.x, state.velocity.x]).all() for state in bench.states)
-    level, _, values = node._report()
-    assert (level, values["not_finite"]) == (1, 1)
+    told = "1 contact was not finite and was left out"
+    wait_for(lambda: any(told in report.message for report in reports), "a warning")
+    warning = next(report for report in reports if told in report.message)
+    assert warning.level == DiagnosticStatus.WARN
+    # What is past hides nothing that comes later.
+
+    def is_well() -> bool:
+        bench.publish_contact(102, bench.now_ns(), 0.01, -0.02)
+        return reports[-1].message == "ball"
+
+    wait_for(is_well, "a report without it")
+    assert {value.key: value.value for value in reports[-1].values}["not_finite"] == "1"
+    assert sum(told in report.message for report in reports) == 1
 
 
 @pytest.mark.parametrize("bench", [62], indirect=True)
 def test_contacts_in_another_frame_are_left_out_and_reported(bench: Bench) -> None:
-    node = start_state_node(bench, "frame_id:=arm/plate")
+    reports = reports_of(bench)
+    start_state_node(bench, "frame_id:=arm/plate")
+    wait_for(lambda: bool(reports), "a report")
     for sequence in range(3):
         bench.publish_contact(sequence, bench.now_ns(), 0.01, -0.02)
-    wait_for(lambda: node._report()[2].get("in_another_frame") == 3, "contacts that are left out")
-    level, words, _ = node._report()
     left_out = "3 contacts in the frame 'plate' were left out: that of the skin is 'arm/plate' (parameter frame_id)"
-    assert (level, words) == (1, f"no contact messages on /plate/contact; {left_out}")
+    told = f"no contact messages on /plate/contact; {left_out}"
+    wait_for(lambda: any(report.message == told for report in reports), "contacts that are left out")
+    assert all(report.level == DiagnosticStatus.WARN for report in reports)
     assert not bench.states
     bench.publish_contact(3, bench.now_ns(), 0.01, -0.02, frame_id="arm/plate")
     wait_for(lambda: bool(bench.states), "a state")

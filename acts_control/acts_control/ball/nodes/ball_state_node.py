@@ -94,6 +94,7 @@ class BallStateNode(PollingNode):
         self._frame_id = skin_frame(self, settings.frame_id)
         self._foreign = 0
         self._foreign_frame = ""
+        self._left_out: tuple[int, ...] = (0, 0, 0)  # of each kind, as told last
         self._message = BallState()
         self._message.header.frame_id = self._frame_id
         self._clock = self.get_clock()
@@ -214,26 +215,24 @@ class BallStateNode(PollingNode):
             "restarts": state.restarts,
             "valid": state.valid,
         }
-        foreign = ""
-        if self._foreign:
-            named = f"in the frame {self._foreign_frame!r}"
-            foreign = (
-                f"{counted(self._foreign, f'contact {named} was', f'contacts {named} were')} left out: "
-                f"that of the skin is {self._frame_id!r} (parameter frame_id)"
-            )
-        if not arrived:
-            silent = f"no contact messages on {self._contacts.topic_name}"
-            return WARN, f"{silent}; {foreign}" if foreign else silent, values
-        if foreign:
-            return WARN, foreign, values
-        if state.not_finite:
-            words = "contact was not finite and was left out", "contacts were not finite and were left out"
-            return WARN, counted(state.not_finite, *words), values
-        if state.implausible:
-            beyond = "at places or of forces beyond reason and"
-            words = f"contact was {beyond} was left out", f"contacts were {beyond} were left out"
-            return WARN, counted(state.implausible, *words), values
+        complaints = [] if arrived else [f"no contact messages on {self._contacts.topic_name}"]
+        complaints += self._newly_left_out()
+        if complaints:
+            return WARN, "; ".join(complaints), values
         return OK, "ball" if state.valid else "no ball", values
+
+    def _newly_left_out(self) -> list[str]:
+        """Of what kind contacts were left out since the last report, in words, and how many so far."""
+        state = self._estimator.state
+        named, beyond = f"in the frame {self._foreign_frame!r}", "at places or of forces beyond reason and"
+        but = f": that of the skin is {self._frame_id!r} (parameter frame_id)"
+        kinds = (
+            (self._foreign, f"contact {named} was left out{but}", f"contacts {named} were left out{but}"),
+            (state.not_finite, "contact was not finite and was left out", "contacts were not finite and were left out"),
+            (state.implausible, f"contact was {beyond} was left out", f"contacts were {beyond} were left out"),
+        )
+        before, self._left_out = self._left_out, tuple(count for count, _, _ in kinds)
+        return [counted(*kind) for kind, told in zip(kinds, before, strict=True) if kind[0] > told]
 
 
 SETTINGS: dict[str, type] = {"ball_state": BallStateSettings}
