@@ -1,10 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Parameters of the control nodes that change while they run; ROS_DOMAIN_ID 188."""
+"""Parameters of the control nodes that change while they run, and what they log; ROS_DOMAIN_ID 188."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -13,6 +14,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from acts_control.ball import LoopStatus, Phase
 from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
@@ -104,3 +106,25 @@ def test_estimator_and_controller_with_different_lever_arms_do_not_work_together
         control.follow(state, trajectory)
     for node in (control, trajectory, state):
         node.destroy_node()
+
+
+def test_a_reason_that_comes_and_goes_is_logged_once_a_second_and_a_state_always(
+    context: Context, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    now_s = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
+    node = BallControlNode(lambda _settings: NoArm(), context=context)
+
+    def logged(phase: Phase, *reasons: str) -> str:
+        for reason in reasons:
+            node._loop.status = LoopStatus(phase=phase, reason=reason)
+            node._publish_status()
+            now_s[0] += 0.02
+        return capfd.readouterr().err
+
+    assert "waiting: for touch" in logged(Phase.WAITING, "for touch")
+    assert logged(Phase.WAITING, *["for a ball", "for touch"] * 20) == ""
+    assert logged(Phase.WAITING, *["for a ball"] * 20).count("waiting: for a ball") == 1
+    assert "balancing: well" in logged(Phase.BALANCING, "well")
+    assert "stopped: no data" in logged(Phase.STOPPED, "no data")
+    node.destroy_node()

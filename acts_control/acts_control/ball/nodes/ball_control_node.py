@@ -8,7 +8,9 @@ Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Service
 
 from __future__ import annotations
 
+import math
 import sys
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -42,6 +44,8 @@ from acts_ros.qos import STATE, STREAM
 _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
+
+_REASON_PERIOD_S = 1.0
 
 # How long the last status may take to arrive where it is heard.
 _LAST_WORDS_S = 0.5
@@ -91,7 +95,8 @@ class BallControlNode(Node):
         settings: Any = declare(self, settings_class(), self._change)
         keep_system_clock(self, CLOCK_REASON)
         self._settings = settings
-        self._told = LoopStatus()
+        self._logged, self._logged_s = LoopStatus(), -math.inf
+        self._told_phase = self._logged.phase
         frame_id = skin_frame(self, settings.frame_id)
         self._status = BalanceStatus()
         self._status.header.frame_id = frame_id
@@ -205,11 +210,10 @@ class BallControlNode(Node):
 
     def _publish_status(self) -> None:
         status, message = self._loop.status, self._status
-        if (status.phase, status.reason) != (self._told.phase, self._told.reason):
-            self._tell(status)
-        if status.phase is not self._told.phase:
+        self._tell(status)
+        if status.phase is not self._told_phase:
             self._diagnostics.publish()
-        self._told = status
+        self._told_phase = status.phase
         set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
         message.state = int(status.phase)
         message.reason = status.reason
@@ -223,6 +227,12 @@ class BallControlNode(Node):
         self._status_publisher.publish(message)
 
     def _tell(self, status: LoopStatus) -> None:
+        """Log phase and reason where they are new; a reason alone once a second at most, because it may come and go."""
+        logged, now_s = self._logged, time.monotonic()
+        is_too_soon = now_s - self._logged_s < _REASON_PERIOD_S
+        if status.phase is logged.phase and (status.reason == logged.reason or is_too_soon):
+            return
+        self._logged, self._logged_s = status, now_s
         text = f"{status.phase.name.lower()}: {status.reason}"
         if status.phase is Phase.STOPPED:
             self.get_logger().warning(text)
