@@ -160,7 +160,13 @@ class BallWorld(Node):
             stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
             return WARN, f"the world stood still for {stood_ms} ms", values
         if state.phase is Phase.FALLEN:
-            return WARN, "the ball has fallen off the plate", values
+            after_s = self._settings.replace_after_s
+            back = (
+                f"put back after {after_s:g} s"
+                if after_s
+                else "start ball_world anew to put it back (replace_after_s is 0)"
+            )
+            return WARN, f"the ball has fallen off the plate: {back}", values
         return OK, f"the ball is {state.phase.value}", values
 
 

@@ -256,3 +256,16 @@ def test_without_a_robot_nothing_is_amiss(observer: Observer, tmp_path: Path) ->
         values = observer.until_reported(b"\x00", "the ball is")
         assert values["joints"] == "there is no robot"
         observer.until(lambda: len(observer.truth) > 10, "no truth")
+
+
+@pytest.mark.parametrize(
+    ("replace_after_s", "words"),
+    [("0.0", "start ball_world anew to put it back (replace_after_s is 0)"), ("9.0", "put back after 9 s")],
+)
+@pytest.mark.parametrize("observer", [103], indirect=True)
+def test_a_ball_that_has_fallen_off_is_told_with_how_it_comes_back(
+    observer: Observer, tmp_path: Path, replace_after_s: str, words: str
+) -> None:
+    pushed = ("push_speed_m_s:=2.0", "push_period_s:=0.05", f"replace_after_s:={replace_after_s}")
+    with world(103, tmp_path, "joint_ring:=none", "start_after_s:=0.0", *pushed):
+        observer.until_reported(b"\x01", f"the ball has fallen off the plate: {words}")
