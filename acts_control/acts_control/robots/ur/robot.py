@@ -293,7 +293,7 @@ class UrRobot:
         except subprocess.TimeoutExpired:
             return "the connection is lost: its process does not answer any more"
         how = signal_name(-code) if code < 0 else f"exit code {code}"
-        return f"the connection is lost: its process has ended ({how}); what ur_rtde said is above"
+        return f"the connection is lost: its process has ended ({how}); what ur_rtde said is in the log"
 
 
 # What refuses to stop something has nothing to stop.
