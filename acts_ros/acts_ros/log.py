@@ -1,13 +1,19 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The logger of a node, for code that does not depend on ROS."""
+"""The logger of a node, for code that does not depend on ROS, and which changes of a node's state are worth a line."""
 
 from __future__ import annotations
+
+import time
+from typing import Any
 
 from rclpy.node import Node
 
 from acts_core.runtime import LogCallback
+
+_BURST = 5
+_PERIOD_S = 1.0
 
 
 def log_of(node: Node) -> LogCallback:
@@ -23,3 +29,34 @@ def log_of(node: Node) -> LogCallback:
             node.get_logger().info(sentence)
 
     return log
+
+
+class LoggedChanges:
+    """Tells which states and reasons are to be logged: all new states, and new reasons unless they come and go.
+
+    Of reasons in the same state five may follow each other at once, and one more for each second. The last one is due
+    as soon as there may be a line again, if it still holds then.
+
+    Parameters
+    ----------
+    state, reason
+        What need not be logged because everything begins with it.
+    """
+
+    def __init__(self, state: Any, reason: str) -> None:
+        self._state, self._reason = state, reason
+        self._lines = float(_BURST)
+        self._counted_s = time.monotonic()
+
+    def is_due(self, state: Any, reason: str) -> bool:
+        """Whether to log this, which holds now; it counts as logged then."""
+        if (state, reason) == (self._state, self._reason):
+            return False
+        now_s = time.monotonic()
+        self._lines = min(self._lines + (now_s - self._counted_s) / _PERIOD_S, _BURST)
+        self._counted_s = now_s
+        if state == self._state and self._lines < 1.0:
+            return False
+        self._lines = max(self._lines - 1.0, 0.0)
+        self._state, self._reason = state, reason
+        return True

@@ -8,9 +8,7 @@ Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Service
 
 from __future__ import annotations
 
-import math
 import sys
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -35,7 +33,7 @@ from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
-from acts_ros.log import log_of
+from acts_ros.log import LoggedChanges, log_of
 from acts_ros.messages import ns_of, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.qos import STATE, STREAM
@@ -44,8 +42,6 @@ from acts_ros.qos import STATE, STREAM
 _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
-
-_REASON_PERIOD_S = 1.0
 
 # How long the last status may take to arrive where it is heard.
 _LAST_WORDS_S = 0.5
@@ -95,8 +91,9 @@ class BallControlNode(Node):
         settings: Any = declare(self, settings_class(), self._change)
         keep_system_clock(self, CLOCK_REASON)
         self._settings = settings
-        self._logged, self._logged_s = LoopStatus(), -math.inf
-        self._told_phase = self._logged.phase
+        first = LoopStatus()
+        self._changes = LoggedChanges(first.phase, first.reason)
+        self._told_phase = first.phase
         frame_id = skin_frame(self, settings.frame_id)
         self._status = BalanceStatus()
         self._status.header.frame_id = frame_id
@@ -210,7 +207,8 @@ class BallControlNode(Node):
 
     def _publish_status(self) -> None:
         status, message = self._loop.status, self._status
-        self._tell(status)
+        if self._changes.is_due(status.phase, status.reason):
+            self._tell(status)
         if status.phase is not self._told_phase:
             self._diagnostics.publish()
         self._told_phase = status.phase
@@ -227,12 +225,6 @@ class BallControlNode(Node):
         self._status_publisher.publish(message)
 
     def _tell(self, status: LoopStatus) -> None:
-        """Log phase and reason where they are new; a reason alone once a second at most, because it may come and go."""
-        logged, now_s = self._logged, time.monotonic()
-        is_too_soon = now_s - self._logged_s < _REASON_PERIOD_S
-        if status.phase is logged.phase and (status.reason == logged.reason or is_too_soon):
-            return
-        self._logged, self._logged_s = status, now_s
         text = f"{status.phase.name.lower()}: {status.reason}"
         if status.phase is Phase.STOPPED:
             self.get_logger().warning(text)

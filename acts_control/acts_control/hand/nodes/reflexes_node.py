@@ -39,6 +39,7 @@ from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, Report
 from acts_ros.executor import run
+from acts_ros.log import LoggedChanges
 from acts_ros.messages import RegionsFields, read_regions, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
@@ -181,6 +182,7 @@ class HandReflexesNode(MotorNode):
         self._touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)
         self._times, self._timed_s = self._touched.times, time.monotonic()
         self._told = SupervisorStatus()
+        self._changes = LoggedChanges(self._told.state, self._told.reason)
         self._reported_refused = 0
         self.start_with(settings, self._touched, "disable", "regions")
         self.create_service(Trigger, "~/grasp", self._on_grasp)
@@ -248,7 +250,7 @@ class HandReflexesNode(MotorNode):
 
     def _send_status(self) -> None:
         status, loop, message = self._present(), self.loop.status, self._status
-        if (status.state, status.reason) != (self._told.state, self._told.reason):
+        if self._changes.is_due(status.state, status.reason):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
         if status.refused > self._told.refused:
             self.get_logger().warning(f"left out: {status.refusal}", throttle_duration_sec=5.0)
