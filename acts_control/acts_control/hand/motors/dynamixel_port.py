@@ -22,7 +22,7 @@ from acts_control.hand.motors.dynamixel_config import DynamixelConfig
 from acts_control.hand.motors.dynamixel_table import ALERT, Register
 from acts_control.hand.motors.port_claim import PortClaim
 from acts_control.hand.motors.port_words import why_not
-from acts_core.runtime import errno_of, is_multiplexer, is_stale_link
+from acts_core.runtime import errno_of, is_multiplexer, is_stale_link, path_shown
 
 # A read of the port returns after this time, if not before with all that was asked for. Well below answer_timeout_ms.
 _READ_TIMEOUT_S = 0.001
@@ -68,8 +68,13 @@ class DynamixelPort:
             ) from error
         config = self._config
         self._sdk = dynamixel_sdk
-        if is_multiplexer(config.port) or is_stale_link(config.port):
-            raise HandError(f"{config.port} is no port of a hand: behind it is a terminal that belongs to nobody yet")
+        if is_stale_link(config.port):
+            raise HandError(
+                f"port {path_shown(config.port)} is not there: the link is older than that terminal, so its hand is "
+                f"gone and another program has the terminal; start the hand again"
+            )
+        if is_multiplexer(config.port):
+            raise HandError(f"{config.port} is no port of a hand: it makes a new terminal each time it is opened")
         self._claim.take()
         # The library's only setting for how long it waits; its own 16 ms is that of a USB adapter as it comes.
         port_handler.LATENCY_TIMER = config.answer_timeout_ms

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import os
 import time
+from pathlib import Path
 
 import pytest
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
@@ -31,6 +33,17 @@ def test_a_number_that_does_not_fit_its_register_is_not_sent(bus: Bus) -> None:
         assert port.read(LEAP_RIGHT.joints[2], P_GAIN) == 16383
     finally:
         port.close()
+
+
+def test_a_link_that_a_dead_hand_has_left_is_told(bus: Bus, tmp_path: Path) -> None:
+    link = tmp_path / "stale"
+    link.symlink_to(bus.link.readlink())
+    os.utime(link, (0, 0), follow_symlinks=False)
+    told = rf"port {link} \(a link to /dev/pts/\d+\) is not there: the link is older .* start the hand again"
+    with pytest.raises(HandError, match=told):
+        DynamixelPort(DynamixelConfig(port=str(link))).open()
+    with pytest.raises(HandError, match="it makes a new terminal each time"):
+        DynamixelPort(DynamixelConfig(port="/dev/ptmx")).open()
 
 
 def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
