@@ -5,17 +5,18 @@
 
 from __future__ import annotations
 
-import io
 import os
 import socket
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import TextIO
 
 from acts_core.errors import LaunchError
+from acts_ros.processes.screen import Screen
 
 
 def make_log_folder() -> Path:
@@ -48,14 +49,22 @@ class Console:
     """
 
     def __init__(self, folder: Path | None, screen: TextIO | None = None) -> None:
-        self._screen = sys.stdout if screen is None else screen
-        if isinstance(self._screen, io.TextIOWrapper):
-            # Processes may write what the terminal has no characters for.
-            self._screen.reconfigure(errors="backslashreplace")
+        self._stream = sys.stdout if screen is None else screen
+        self._screen = Screen(self._stream)
         self._log: TextIO | None = (
             None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
         )
         self.screen_lost = False
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether lines wait until somebody reads the screen; see `catch_up`."""
+        return self._screen.is_behind and not self.screen_lost
+
+    def catch_up(self, timeout_s: float = 0.0) -> None:
+        """Write lines that wait, as far as the screen is read within a time [s]."""
+        if not self.screen_lost:
+            self._to_screen(lambda: self._screen.catch_up(timeout_s))
 
     def close(self) -> None:
         """Close the log file."""
@@ -79,13 +88,15 @@ class Console:
                     log.close()
                 self.say("WARNING", "launch", f"{log.name} ends here: {error.strerror}")
         if to_screen and not self.screen_lost:
-            try:
-                self._screen.write(f"{line}\n")
-                self._screen.flush()
-            except BrokenPipeError:
-                # The reader of our output has ended; the launcher notices and stops its processes in order.
-                self.screen_lost = True
-            except OSError:
-                # A file on a full disk: likewise, what is launched goes on. What Python still holds goes nowhere.
-                with suppress(OSError):
-                    os.dup2(os.open(os.devnull, os.O_WRONLY), self._screen.fileno())
+            self._to_screen(lambda: self._screen.write(line))
+
+    def _to_screen(self, write: Callable[[], None]) -> None:
+        try:
+            write()
+        except BrokenPipeError:
+            # The reader of our output has ended; the launcher notices and stops its processes in order.
+            self.screen_lost = True
+        except OSError:
+            # A file on a full disk: likewise, what is launched goes on. What Python still holds goes nowhere.
+            with suppress(OSError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())

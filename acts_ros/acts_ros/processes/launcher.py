@@ -34,6 +34,8 @@ _STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 +
 # As long after its start a process may not have come to its signal handlers, on a busy machine [s].
 _YOUNG_S = 2.0
 _DRAIN_S = 0.5
+# How often lines that nobody has read are tried again.
+_CATCH_UP_S = 0.1
 # One that writes without a pause is read no further in a turn; far more than a pipe holds, so that its rest is read.
 _READS = 16
 _READ_BYTES = 65536
@@ -137,6 +139,7 @@ class Launcher:
         failed = [child for child in self._children if child.failure is not None]
         for child in failed:
             self._console.say("ERROR", self._name, f"{child.process.label} {child.failure}")
+        self._console.catch_up(_DRAIN_S)
         return 1 if failed else 0
 
     @contextmanager
@@ -175,6 +178,7 @@ class Launcher:
                 self._read(key.data)
         while self._signals:
             self._on_stop_signal(signal.Signals(self._signals.pop(0)))
+        self._console.catch_up()
         if self._console.screen_lost and not self._stopping:
             self._stop("the output can no longer be written")
         now_s = time.monotonic()
@@ -190,6 +194,7 @@ class Launcher:
     def _next_deadline_s(self) -> float | None:
         deadlines = [child.restart_at_s for child in self._children if child.restart_at_s is not None]
         deadlines += [child.escalations[0][0] for child in self._children if child.popen and child.escalations]
+        deadlines += [time.monotonic() + _CATCH_UP_S] if self._console.is_behind else []
         return max(0.0, min(deadlines) - time.monotonic()) if deadlines else None
 
     def _start(self, child: _Child) -> None:

@@ -5,13 +5,16 @@
 
 from __future__ import annotations
 
+import array
 import errno
+import fcntl
 import io
 import os
 import re
 import signal
 import subprocess
 import sys
+import termios
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,8 +26,10 @@ from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import LONGEST_WAIT_S, SOON_S, RespawnWait
+from acts_ros.processes.screen import Screen
 
 DEADLINE_S = 30.0
+PAGE_BYTES = 4096
 
 PROGRAM = '''
 import os, sys
@@ -49,6 +54,18 @@ sys.exit(code)
 
 # Stands for a program of Python that still imports: its handlers are those of the interpreter.
 STARTING = PROGRAM.replace("signal.signal(signal.SIGINT, lambda *_: sys.exit(0))", "")
+
+
+def pipe_room(read_end: int) -> int:
+    """Bytes that still fit into a pipe, less than a page."""
+    waiting = array.array("i", [0])
+    fcntl.ioctl(read_end, termios.FIONREAD, waiting)
+    return max(fcntl.fcntl(read_end, fcntl.F_GETPIPE_SZ) - waiting[0] - PAGE_BYTES, 0)
+
+
+def children_of(pid: int) -> list[int]:
+    """Numbers of the processes that a process has started."""
+    return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
 class Run:
@@ -184,6 +201,53 @@ code = Launcher(Console(None), name="someone")""",
         run.wait_until(lambda: "over" in run.output)
         assert run.process.wait(DEADLINE_S) == 0
         assert all(is_gone(pid) for pid in run.pids)
+
+
+def test_output_that_nobody_reads_holds_nothing_up(tmp_path: Path) -> None:
+    # As behind `less`, or after Ctrl-S.
+    chatty = PROGRAM.replace('print("ready", flush=True)', 'print(*["ready"] * 50000, sep=chr(10), flush=True)')
+    read_end, write_end = os.pipe()
+    process = subprocess.Popen([sys.executable, "-c", chatty], stdout=write_end)
+    os.close(write_end)
+    try:
+        deadline_s = time.monotonic() + DEADLINE_S
+        while pipe_room(read_end) > 0 or len(children_of(process.pid)) < 2:
+            assert time.monotonic() < deadline_s
+            time.sleep(0.01)
+        pids = children_of(process.pid)
+        process.send_signal(signal.SIGINT)
+        while not all(is_gone(pid) for pid in pids):
+            assert time.monotonic() < deadline_s
+            time.sleep(0.01)
+        with open(read_end, "rb", closefd=False) as reader:
+            shown = reader.read().decode().splitlines()
+        assert process.wait(DEADLINE_S) == 0
+        assert shown.count("[it-1] ready") > 1000
+    finally:
+        process.kill()
+        process.wait()
+        os.close(read_end)
+
+
+def test_lines_that_waited_are_shown_and_too_many_are_told() -> None:
+    read_end, write_end = os.pipe()
+    with os.fdopen(read_end, "rb", 0) as reader, os.fdopen(write_end, "w") as stream:
+        screen = Screen(stream)
+        count = 200_000
+        for number in range(count):
+            screen.write(f"line {number}")
+        assert screen.is_behind
+        shown = b""
+        while screen.is_behind:
+            shown += reader.read(65536)
+            screen.catch_up()
+        screen.write("the end")
+        stream.flush()
+        shown += reader.read(65536)
+    *lines, told, end = shown.decode().splitlines()
+    assert lines == [f"line {number}" for number in range(len(lines))]
+    assert told == f"[WARNING] [launch]: lines left out here: {count - len(lines)}"
+    assert end == "the end"
 
 
 def test_a_line_that_does_not_end_is_shown_in_pieces() -> None:
