@@ -89,6 +89,10 @@ class Stalls:
         self._stood_still_s = 0.0
         self._timer = steady_timer(node, _LOOK_PERIOD_S, self._look)
 
+    def begin(self) -> None:
+        """Count from now on, where the executor is about to begin; otherwise from the first tenth of a second on."""
+        self._look()
+
     def objection(self) -> str:
         """Why a motion that is asked for now may have been meant for earlier, and what to do; empty where it cannot."""
         if self._look() - self._ended_s > self._longest_s:

@@ -79,6 +79,7 @@ def test_what_is_asked_for_after_a_node_stood_still_is_told_from_what_is_new(con
             executor.spin_once(timeout_sec=0.05)
 
     # However long a node takes to be made.
+    stalls.begin()
     assert stalls.objection() == ""
     spin_until(lambda: stalls.objection() == "")
     begin_s = time.monotonic()

@@ -148,6 +148,7 @@ class BallControlNode(Node):
     def begin(self) -> None:
         """Start the control loop, and with `autostart` the robot."""
         enter_realtime(self._settings, "ball_control", log_of(self))
+        self._stalls.begin()
         self._loop.launch()
 
     def close(self) -> None:

@@ -102,6 +102,7 @@ class MotorNode(PollingNode):
     def begin(self) -> None:
         """Start the loop, and with `autostart` the motors."""
         enter_realtime(self.settings, self.get_name(), log_of(self))
+        self.stalls.begin()
         self.loop.launch()
 
     def close(self) -> None:
