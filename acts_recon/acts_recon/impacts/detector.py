@@ -24,6 +24,7 @@ from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 Array = NDArray[np.float64]
 
 _UNSEEN_S = 0.02
+_UNSURE_S = 0.001
 _NUMBERS = 2**32
 
 
@@ -292,7 +293,8 @@ class ImpactDetector:
         onset_s, onset_sd_s = touch.onset(
             self._untouched_before(touch), force if is_short and fitted is None else None, followed
         )
-        if not is_short and touch.slow_onset is not None:
+        # What taps for long may look like an impact that stays; the onset of one that is none is hardly known so.
+        if touch.slow_onset is not None and (not is_short or onset_sd_s > _UNSURE_S):
             onset_s, onset_sd_s = touch.slow_onset
         if stays:
             end_s = touch.last_s

@@ -4,19 +4,24 @@
 """When a touch began: some time before a taxel was pressed enough to be told from an untouched one.
 
 **A slow touch.** A hand that comes at 0.1 m/s has touched for 3 to 8 ms until a taxel reads 25 counts. So the readings
-of the taxel that is pressed most are followed back to 0. What touches is taken to be round where it first touches, and
-to press with a pressure that goes with depth, as foam does. With R the radius of curvature, d(t) the depth, and a taxel
-that takes the mean over a Gaussian of standard deviation s (its own square and the spread of the foam), the force is
+of the taxels around the middle of the contact are followed back to 0. What touches is taken to be round where it first
+touches, and to press with a pressure that goes with depth, as foam does. With R the radius of curvature, d(t) the
+depth, r how far from the middle a taxel lies, and s the standard deviation of the Gaussian over which it takes the mean
+(its own square and the spread of the foam), the force on it is the mean of
 
-    force(t) = c (u - 1 + exp(-u))        u = R d(t) / s^2
+    force(t) = c max(u - |z|^2 / 2, 0)        u = R d(t) / s^2
 
-It begins with the square of the depth, while the contact is smaller than what a taxel sees, and goes on in proportion.
-How large R d is tells the area of the contact. The speed fades in one of two ways: of a hand that comes to rest from
-the first moment on, of one that springs back, as in a tap, late::
+over a normal distribution of z about r / s. With L = r^2 / (2 s^2), |z|^2 / 2 is distributed as the sum of 1 + k
+exponentials of mean 1, with k of Poisson's distribution of mean L. So in the middle the mean is c (u - 1 + exp(-u)): it
+begins with the square of the depth, while the contact is smaller than what a taxel sees, and goes on in proportion. A
+pitch away it begins some ms later. How large R d is tells the area of the contact. A body that is flat in its middle,
+as a sole is, presses with c d(t) at once. The speed fades in one of two ways: of a hand that comes to rest from the
+first moment on, of one that springs back, as in a tap, late::
 
     d(t) = v T (1 - exp(-(t - t0) / T))        d(t) = v T sin(min((t - t0) / T, pi / 2))
 
-Both are tried; t0 and T are looked for on a grid, and the mean over all that is likely is told.
+All are tried; t0 and T are looked for on a grid, and the mean over all that is likely is told. Each taxel has a c of
+its own: its sensitivity, and how the pressure is spread, do not matter.
 
 **An impact.** The depth of what bounces is about half a sine wave, and by Hertz's law its force goes with the depth to
 the power 3/2. So the first force F1 at t1 and the largest Fp at tp tell which share of the rise had passed::
@@ -38,26 +43,37 @@ Array = NDArray[np.float64]
 
 _LEAST_SAMPLES = 4
 _MISFIT = 0.04  # of the force: sensitivities do not matter, but shapes and motions do
-_EARLIEST_S, _STEP_S = 0.016, 0.0002
+_EARLIEST_S, _ONSETS = 0.020, 48
+_LEAST_SD_S = 0.0003
+# How likely a flat body is, beside a round one.
+_FLAT = 0.05
 _SLOWING_S = np.array([0.006, 0.010, 0.015, 0.022, 0.033, 0.050, 0.100, 1.0])
 _HERTZ_POWER = 1.5
 # What an onset errs by beyond what the readings say, as a share of how far it is followed back.
-_SHARE_SD = 0.15
+_SLOW_SHARE_SD, _IMPACT_SHARE_SD = 0.05, 0.15
+# Terms of Poisson's distribution: of taxels about a pitch from the middle its mean is 1 to 5.
+_TERMS = 12
 
 
 @dataclass(frozen=True)
 class Rise:
-    """The rise of a touch.
+    """The rise of a touch, as the taxels around its middle were measured.
 
     Attributes
     ----------
     time_s, force_n, noise_n : np.ndarray [shape=(n,), dtype=float64]
-        When the taxel that is pressed most was measured pressed, the force on it, and the standard deviation of that,
-        until it is about largest.
-    free_s : np.ndarray [shape=(k,), dtype=float64]
-        When it was measured before, and no more than noise.
-    free_n : float
-        The largest force that can be noise.
+        When one of them was measured, the force on it, and the standard deviation of that; of each from before the
+        touch until its force is about largest.
+    is_pressed : np.ndarray [shape=(n,), dtype=bool]
+        Whether it read more than noise.
+    taxel : np.ndarray [shape=(n,), dtype=intp]
+        Which of them, from 0.
+    away_m2 : np.ndarray [shape=(taxels,), dtype=float64]
+        Squared distance of each from the middle.
+    felt_s : float
+        When one of them was first pressed enough to be sure of it.
+    unread_n, free_n : float
+        The largest force that reads 0, and the largest that can be noise.
     area_m2 : float
         Of the contact at the end of that time: where the force is at least half of the largest.
     blur_m2 : float
@@ -67,7 +83,11 @@ class Rise:
     time_s: Array
     force_n: Array
     noise_n: Array
-    free_s: Array
+    is_pressed: NDArray[np.bool_]
+    taxel: NDArray[np.intp]
+    away_m2: Array
+    felt_s: float
+    unread_n: float
     free_n: float
     area_m2: float
     blur_m2: float
@@ -93,30 +113,71 @@ class FollowedBack:
 def follow_back(rise: Rise) -> tuple[float, float] | None:
     """When a touch began, and the standard deviation [s]; None where there are too few samples to tell."""
     time_s, force_n = rise.time_s, rise.force_n
-    if force_n.size < _LEAST_SAMPLES:
+    if rise.is_pressed.sum() < _LEAST_SAMPLES:
         return None
-    # The mean over a Gaussian is half of its top where r^2 is 2 ln 2 s^2; a paraboloid is at R d.
-    curved_m2 = max(rise.area_m2 / math.pi - 2 * math.log(2) * rise.blur_m2, 0.3 * rise.blur_m2)
-    first_s, last_s = float(time_s[0]), float(time_s[-1])
-    onset_s = np.arange(first_s - _EARLIEST_S, first_s, _STEP_S)[:, None]
-
-    def shape(at_s: Array) -> Array:
-        """Of the force, by onset, way of slowing and time."""
-        depth, whole = _depths(at_s - onset_s[..., None]), _depths(last_s - onset_s[..., None])
-        u = (curved_m2 / rise.blur_m2) * depth / whole
-        return u + np.expm1(-u)
-
+    # Nearer to each other where it is felt soon.
+    back = (np.arange(_ONSETS) + 0.5) / _ONSETS
+    onset_s = (rise.felt_s - _EARLIEST_S * back**2)[:, None]
+    # Of each sample, by onset and way of slowing, of a round body and of a flat one.
+    depth = _depths(time_s - onset_s[..., None]) / _depths(float(time_s.max()) - onset_s[..., None])
+    shape = _mean_pressure(
+        _curved(rise.area_m2 / rise.blur_m2) * depth, (rise.away_m2 / (2 * rise.blur_m2))[rise.taxel]
+    )
+    shape = np.concatenate((shape, depth), axis=-2)
     weight = 1.0 / np.hypot(rise.noise_n, _MISFIT * force_n)
-    model = shape(time_s) * weight
-    size = (model @ (force_n * weight)) / np.maximum((model**2).sum(-1), 1e-30)
-    squares = ((model * size[..., None] - force_n * weight) ** 2).sum(-1)
-    too_much = np.maximum(shape(rise.free_s) * size[..., None] - rise.free_n, 0.0) / rise.noise_n[0]
-    squares += (too_much**2).sum(-1)
-    likely = np.exp(-0.5 * (squares - squares.min()))
+    squares = np.zeros(shape.shape[:-1])
+    for number in range(rise.away_m2.size):
+        own = rise.taxel == number
+        felt = own & rise.is_pressed
+        model = shape[..., felt] * weight[felt]
+        size = (model @ (force_n * weight)[felt]) / np.maximum((model**2).sum(-1), 1e-30)
+        model_n = shape[..., own] * size[..., None]
+        # A reading of noise contradicts no force that is less, and one above noise none that is not read.
+        errors_n = np.where(
+            rise.is_pressed[own],
+            np.maximum(model_n, rise.unread_n) - force_n[own],
+            np.maximum(model_n - rise.free_n, 0.0),
+        )
+        squares += ((errors_n * weight[own]) ** 2).sum(-1)
+    # What is not as the model has it, all taxels share in part.
+    squares /= math.sqrt(rise.away_m2.size)
+    # All moments are as likely, but the onsets that are tried are further apart the earlier they are.
+    before = back[:, None] * np.repeat((1.0, _FLAT), shape.shape[1] // 2)
+    likely = np.exp(-0.5 * (squares - squares.min())) * before
     likely /= likely.sum()
     mean_s = float((likely * onset_s).sum())
     sd_s = math.sqrt(float((likely * (onset_s - mean_s) ** 2).sum()))
-    return mean_s, math.hypot(sd_s, _SHARE_SD * (first_s - mean_s), _STEP_S)
+    return mean_s, math.hypot(sd_s, _SLOW_SHARE_SD * (rise.felt_s - mean_s), _LEAST_SD_S)
+
+
+def _curved(area: float) -> float:
+    """R d / s^2 of a contact of this area over s^2.
+
+    The mean over a Gaussian is half of its top where r^2 is 2 ln 2 s^2 if the contact is small, and R d - s^2 if it is
+    large; in between this is right to 0.1.
+    """
+    wider = max(area / math.pi - 2 * math.log(2), 0.1)
+    return wider + (1 + 2 * math.log(2)) * wider / (wider + 2)
+
+
+def _mean_pressure(u: Array, mean_terms: Array) -> Array:
+    """The mean of max(u - |z|^2 / 2, 0) at these L.
+
+    Parameters
+    ----------
+    u : np.ndarray [shape=(..., n), dtype=float64]
+    mean_terms : np.ndarray [shape=(n,), dtype=float64]
+        L of each.
+    """
+    k = np.arange(_TERMS)
+    factorial = np.cumprod(np.maximum(k, 1))
+    share = mean_terms[:, None] ** k / factorial
+    share /= share.sum(1, keepdims=True)
+    # The mean of max(u - w, 0), with w of 1 + k exponentials, is u - (k + 1) + exp(-u) sum_j (k + 1 - j) u^j / j!.
+    terms = np.zeros_like(u)
+    for j in k[::-1]:
+        terms = terms * u + (share[:, j:] @ (k[j:] + 1.0 - j)) / factorial[j]
+    return np.maximum(u - share @ (k + 1.0) + np.exp(-u) * terms, 0.0)
 
 
 def follow_back_impact(fitted: Footprint) -> FollowedBack | None:
@@ -137,7 +198,7 @@ def follow_back_impact(fitted: Footprint) -> FollowedBack | None:
     # The largest force lies between two nodes.
     peak_sd_s = float(time_s[1] - time_s[0]) / math.sqrt(12)
     sd_s = math.hypot(
-        passed_sd * rise_s / (1.0 - passed) ** 2, peak_sd_s * passed / (1.0 - passed), _SHARE_SD * before_s
+        passed_sd * rise_s / (1.0 - passed) ** 2, peak_sd_s * passed / (1.0 - passed), _IMPACT_SHARE_SD * before_s
     )
     # It takes no longer to a pressed taxel than from there to the largest force: else the first sample was a late one.
     return FollowedBack(float(time_s[0]) - before_s, sd_s, min(before_s, rise_s))

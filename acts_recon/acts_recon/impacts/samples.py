@@ -19,14 +19,16 @@ from acts_recon.impacts.onset_fit import Rise
 Array = NDArray[np.float64]
 
 _MARGIN_TAXELS = 2.0
+# Of a contact the taxels nearer than this to its middle, four to six, tell when it began.
+_MIDDLE_TAXELS = 1.13
 # What lies nearer than this to where it first touches is soon touched, too.
 _AROUND_TAXELS = 2.5
 # A sample of more than this many standard deviations of the noise is no noise. With 3, noise began 2 of 200 touches,
 # 15 ms early.
 _NOISES = 4.0
 _LEAST_SLOPE_N = 1e-7  # a count, where a measured response is flat
-# Share of its largest force in the first sample of a taxel that was measured early.
-_EARLY = 0.4
+# Samples of a taxel that tell how a touch rose: at some thousand frames a second all would take too long.
+_MOST_OF_A_RISE = 100
 # Until this share of the largest force, a touch rises.
 _RISEN = 0.9
 # A reading has risen from an earlier one where it is higher by so many standard deviations of the noise, or by this
@@ -35,8 +37,12 @@ _RISE_NOISES, _RISE_SHARE = 5.0, 0.5
 # With so many samples per taxel, what touches has been found. The search of `tracking`, which takes longest, gets a
 # fifth of them.
 _SEARCHED = 5
-# Fingers that touch together are further apart than this from middle to middle.
-_WIDEST_M = 0.013
+# From the taxel that is pressed most down to the foot of a contact the force may go up by this share, as sensitivities
+# differ; beyond that the next finger begins.
+_UPHILL = 1.15
+# Of the largest force: a contact ends at half of it, and a taxel counts in part from the first to the second, so that
+# its area is finer than a taxel.
+_FOOT, _WHOLE = 0.375, 0.625
 
 
 class RecentSamples:
@@ -156,7 +162,7 @@ class RecentSamples:
         image: NDArray[np.float32],
         spread_m: float,
     ) -> Rise | None:
-        """How the force rose at the taxel near a place that is pressed most; None where none is.
+        """How the force rose at the taxels around the middle of what presses near a place; None where none does.
 
         Parameters
         ----------
@@ -175,56 +181,57 @@ class RecentSamples:
             return None
         time_s, counts = (np.concatenate([one[k] for one in self._frames]) for k in (1, 3))
         taxel = np.concatenate([one[2] for one in self._frames])
-        everywhere = slice(None)
         reach_m = _AROUND_TAXELS * max(geometry.pitch_m, geometry.pitch_y_m)
-        around = self._lies_near(everywhere, x_m, y_m, reach_m, patch)
-        seen = around[taxel] & (time_s >= first_s) & (time_s <= last_s)
-        if not seen.any():
-            return None
+        around = self._lies_near(slice(None), x_m, y_m, reach_m, patch)
         least = _NOISES * self._noise_counts
-        most = self._most_pressed(
-            taxel[seen], time_s[seen], self._force(counts[seen]), counts[seen] > self._touch_counts
+        shown_n = np.where(
+            self._patch_of == patch, self._force(np.where(image.ravel() > least, image.ravel(), 0.0)), 0.0
         )
-        if most is None:
+        most = int(np.where(around, shown_n, 0.0).argmax())
+        if not around[most] or shown_n[most] <= 0:
             return None
-        seen &= taxel == most
-        order = np.argsort(time_s[seen])
-        time_s, counts = time_s[seen][order], counts[seen][order]
-        pressed = counts > least
-        # From the last reading of no more than noise before it was pressed enough.
-        enough = int(np.argmax(counts > self._touch_counts))
-        begin = enough
-        while begin and pressed[begin - 1]:
-            begin -= 1
-        risen = begin + int(np.argmax(self._force(counts[begin:]) >= _RISEN * self._force(counts).max())) + 1
-        whole = np.clip(np.rint(counts[begin:risen]), 0, self._force_n.size - 2).astype(np.intp)
-        shown = self._force(np.where(image.ravel() > least, image.ravel(), 0.0))
-        near = self._lies_near(everywhere, self._x_m[most], self._y_m[most], _WIDEST_M, patch)
-        # Taxels at half of the force, each as far as it is above: the area is finer than a taxel.
-        share = np.clip((shown[near] / max(float(shown[most]), 1e-9) - 0.5) / 0.25 + 0.5, 0.0, 1.0)
-        blur_m2 = spread_m**2 + (geometry.pitch_m**2 + geometry.pitch_y_m**2) / 24
+        share = _hill((shown_n / shown_n[most]).reshape(image.shape), most).ravel()
+        middle_x_m, middle_y_m = (float(share @ at) / float(share.sum()) for at in (self._x_m, self._y_m))
+        if not share[self._nearest(middle_x_m, middle_y_m)]:  # of a ring
+            middle_x_m, middle_y_m = float(self._x_m[most]), float(self._y_m[most])
+        dx_m, dy_m = self._x_m - middle_x_m, self._y_m - middle_y_m
+        middle = (np.hypot(dx_m / geometry.pitch_m, dy_m / geometry.pitch_y_m) <= _MIDDLE_TAXELS) & (share > 0)
+        begun = (time_s >= first_s) & (time_s <= last_s)
+        parts, felt_s = [], []
+        for place in np.flatnonzero(middle):
+            own = np.flatnonzero(begun & (taxel == place))
+            own = own[np.argsort(time_s[own])][:: 1 + own.size // _MOST_OF_A_RISE]
+            pressed = counts[own] > self._touch_counts
+            if not pressed.any():
+                continue
+            enough = int(pressed.argmax())
+            force_n = self._force(counts[own])
+            risen = enough + int(np.argmax(force_n[enough:] >= _RISEN * force_n.max())) + 1
+            parts.append(own[:risen])
+            felt_s.append(float(time_s[own[enough]]))
+        if not parts:
+            return None
+        kept = np.concatenate(parts)
+        counts, number = counts[kept], np.repeat(np.arange(len(parts)), [part.size for part in parts])
+        whole = np.clip(np.rint(np.maximum(counts, least)), 0, self._force_n.size - 2).astype(np.intp)
+        unread_n, free_n = self._force(np.array([1.0, least])).tolist()
         return Rise(
-            time_s[begin:risen],
-            self._force(counts[begin:risen]),
-            self._noise_counts * np.maximum(self._slope_n[whole], _LEAST_SLOPE_N),
-            time_s[:begin],
-            float(self._force(np.array([least]))[0]),
-            float(share.sum()) * geometry.taxel_area_m2,
-            blur_m2,
+            time_s=time_s[kept],
+            force_n=self._force(counts),
+            noise_n=self._noise_counts * np.maximum(self._slope_n[whole], _LEAST_SLOPE_N),
+            is_pressed=counts > least,
+            taxel=number,
+            away_m2=np.array([dx_m[place] ** 2 + dy_m[place] ** 2 for place in (taxel[part[0]] for part in parts)]),
+            felt_s=min(felt_s),
+            unread_n=unread_n,
+            free_n=free_n,
+            area_m2=float(share.sum()) * geometry.taxel_area_m2,
+            blur_m2=spread_m**2 + (geometry.pitch_m**2 + geometry.pitch_y_m**2) / 24,
         )
 
-    def _most_pressed(
-        self, taxel: NDArray[np.intp], time_s: Array, force_n: Array, pressed: NDArray[np.bool_]
-    ) -> int | None:
-        """The taxel that is pressed most, of those that were measured early in their rise; None where there is none."""
-        largest_n, first_n = np.zeros((2, self._geometry.size))
-        np.maximum.at(largest_n, taxel, force_n)
-        # Later samples first: the first pressed one of each taxel stays.
-        order = np.argsort(-time_s)
-        order = order[pressed[order]]
-        first_n[taxel[order]] = force_n[order]
-        early = (first_n > 0) & (first_n <= _EARLY * largest_n)
-        return int(np.where(early, largest_n, 0.0).argmax()) if early.any() else None
+    def _nearest(self, x_m: float, y_m: float) -> int:
+        """The taxel nearest to a place."""
+        return int(np.hypot(self._x_m - x_m, self._y_m - y_m).argmin())
 
     def _force(self, counts: Array | NDArray[np.float32]) -> Array:
         force_n: Array = np.where(counts > 0, np.interp(counts, np.arange(self._force_n.size), self._force_n), 0.0)
@@ -263,3 +270,25 @@ class RecentSamples:
         noise_n = self._noise_counts * self._slope_n[whole]
         area_m2 = self._geometry.taxel_area_m2
         return fit_footprint(time_s, self._x_m[taxel], self._y_m[taxel], force_n, noise_n, taxel, len(frames), area_m2)
+
+
+def _hill(force: Array, most: int) -> Array:
+    """How far each taxel belongs to the contact of the taxel that is pressed most: 0 to 1, half where its edge is.
+
+    Parameters
+    ----------
+    force : np.ndarray [shape=(rows, cols), dtype=float64]
+        As a share of the force on that taxel.
+    most : int
+        Its place.
+    """
+    grown = np.zeros(force.shape, dtype=bool)
+    grown.flat[most] = True
+    while True:
+        above = np.pad(np.where(grown, _UPHILL * force, 0.0), 1)
+        beside = np.maximum.reduce([above[:-2, 1:-1], above[2:, 1:-1], above[1:-1, :-2], above[1:-1, 2:]])
+        wider = grown | ((beside >= force) & (force > _FOOT))
+        if (wider == grown).all():
+            break
+        grown = wider
+    return np.where(grown, np.clip((force - _FOOT) / (_WHOLE - _FOOT), 0.0, 1.0), 0.0)

@@ -73,6 +73,13 @@ def test_fingers_that_tap_together_are_one_tap() -> None:
     assert [impact.kind for impact in over] == [Kind.TAP]
 
 
+def test_a_tap_that_looks_like_an_impact_has_the_onset_of_a_slow_touch() -> None:
+    """Three fingers tap; one of them was felt 14 ms late, and its force had soon fallen to half."""
+    shown = worn_scene("arm_tap", np.random.default_rng([2, 3]))
+    over = [impact for _, impact in Watcher(shown.layout, 3.0).watch(shown, 64, 3.0, 4) if impact.is_over]
+    assert abs(over[0].onset_s - shown.events[0].onset_s) < 0.002
+
+
 def test_a_footstep_is_one_step_from_heel_to_toes() -> None:
     shown = worn_scene("footstep", np.random.default_rng([1, 1]))
     over = [impact for _, impact in Watcher(shown.layout, 3.0).watch(shown, 64, 3.0, 2) if impact.is_over]
