@@ -29,6 +29,9 @@ Array = NDArray[np.float64]
 FORCE_SD = 0.2
 """Of a fitted footprint's force, as a share: the taxels' sensitivities, and how far it is from the model."""
 
+LEAST_NODES = 5
+"""Nodes of a fit to fewer frames than that: what is between frames is then only assumed to be smooth."""
+
 _SPREAD = 0.05  # of the taxels' sensitivities
 _MISFIT = 0.05  # how far a footprint is from the model, as a share of the largest force on a taxel
 _STEPS = 30
@@ -38,7 +41,7 @@ _VOLUME = math.pi * 2.0 ** (1.0 / _POWER) * math.gamma(1.0 + 1.0 / _POWER)
 _LEAST_TAXELS = 8
 # Less than a few measurements take. At the time of today nodes would fall together that are not a microsecond apart.
 _LEAST_S = 2e-5
-_LEAST_NODES, _MOST_NODES = 5, 24
+_MOST_NODES = 24
 # How far amplitude and width go from node to node, as natural logarithms.
 _AMPLITUDE_STEP, _WIDTH_STEP = 1.5, 0.4
 # How far they are from the largest force and from the width of all samples together, likewise.
@@ -170,7 +173,7 @@ def fit_footprint(
     if np.unique(taxel[pressed]).size < _LEAST_TAXELS or np.ptp(time_s[pressed]) < _LEAST_S:
         return None
     sd_n = np.hypot(np.hypot(noise_n, _SPREAD * force_n), _MISFIT * float(force_n.max()))
-    nodes = min(max(frames, _LEAST_NODES), _MOST_NODES)
+    nodes = min(max(frames, LEAST_NODES), _MOST_NODES)
     model = _Model(1e3 * time_s, 1e3 * x_m, 1e3 * y_m, force_n, sd_n, nodes)
     total = float(force_n.sum())
     dx, dy = x_m - force_n @ x_m / total, y_m - force_n @ y_m / total

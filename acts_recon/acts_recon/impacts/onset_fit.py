@@ -24,9 +24,11 @@ All are tried; t0 and T are looked for on a grid, and the mean over all that is 
 its own: its sensitivity, and how the pressure is spread, do not matter.
 
 **An impact.** The depth of what bounces is about half a sine wave, and by Hertz's law its force goes with the depth to
-the power 3/2. So the first force F1 at t1 and the largest Fp at tp tell which share of the rise had passed::
+the power 3/2. So a force F1 at t1 and the largest Fp at tp tell which share of the rise had passed::
 
     (t1 - t0) / (tp - t0) = (2 / pi) asin((F1 / Fp)^(2/3))
+
+The first force of the fitted footprint and the second, a frame later, both tell it, and their weighted mean is taken.
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
+from acts_recon.impacts.footprint_fit import FORCE_SD, LEAST_NODES, Footprint
 
 Array = NDArray[np.float64]
 
@@ -51,6 +53,9 @@ _SLOWING_S = np.array([0.006, 0.010, 0.015, 0.022, 0.033, 0.050, 0.100, 1.0])
 _HERTZ_POWER = 1.5
 # What an onset errs by beyond what the readings say, as a share of how far it is followed back.
 _SLOW_SHARE_SD, _IMPACT_SHARE_SD = 0.05, 0.15
+# Of the largest force: what a fitted footprint's force errs by where it is small. While few taxels are pressed, the
+# footprint is smaller than it is later, and than the fit has it.
+_SMALLEST_SD = 0.01
 # Terms of Poisson's distribution: of taxels about a pitch from the middle its mean is 1 to 5.
 _TERMS = 12
 
@@ -185,23 +190,37 @@ def follow_back_impact(fitted: Footprint) -> FollowedBack | None:
     time_s, force_n = fitted.time_s, fitted.force_n
     top = int(force_n.argmax())
     peak_s, peak_n = _peak(time_s, force_n, top)
-    share = float(force_n[0] / peak_n) ** (1.0 / _HERTZ_POWER)
-    if share >= 1.0:
+    if force_n[0] >= peak_n:
         return None
-    rise_s = peak_s - float(time_s[0])
+    # The first force is nearest to the onset, but may be little more than what it errs by. The second is of the same
+    # samples where there is not one to a frame.
+    nodes = min(2, top) if time_s.size > LEAST_NODES else 1
+    found = [_followed_from(fitted, node, top, peak_s, peak_n) for node in range(nodes)]
+    weights = [sd_s**-2 for _, sd_s in found]
+    zero_s = sum(weight * each_s for weight, (each_s, _) in zip(weights, found, strict=True)) / sum(weights)
+    # It takes no longer to a pressed taxel than from there to the largest force: else the first sample was a late one.
+    first_s = float(time_s[0])
+    return FollowedBack(zero_s, sum(weights) ** -0.5, min(max(first_s - zero_s, 0.0), peak_s - first_s))
+
+
+def _followed_from(fitted: Footprint, node: int, top: int, peak_s: float, peak_n: float) -> tuple[float, float]:
+    """When the force was 0 by one of its values, and the standard deviation [s]; `top`: the largest of them."""
+    at_s, share_n = float(fitted.time_s[node]), float(fitted.force_n[node]) / peak_n
+    share = share_n ** (1.0 / _HERTZ_POWER)
+    rise_s = peak_s - at_s
     passed = 2.0 / math.pi * math.asin(share)
     before_s = rise_s * passed / (1.0 - passed)
     # Of the two forces' ratio, as the samples tell it and as the footprint's shape may be wrong.
     log = fitted.log_covariance
-    ratio_sd = math.hypot(math.sqrt(max(float(log[0, 0] + log[top, top] - 2.0 * log[0, top]), 0.0)), FORCE_SD)
+    log_sd = math.sqrt(max(float(log[node, node] + log[top, top] - 2.0 * log[node, top]), 0.0))
+    ratio_sd = math.hypot(log_sd, FORCE_SD, _SMALLEST_SD / share_n)
     passed_sd = 2.0 / math.pi * share / math.sqrt(1.0 - share**2) / _HERTZ_POWER * ratio_sd
     # The largest force lies between two nodes.
-    peak_sd_s = float(time_s[1] - time_s[0]) / math.sqrt(12)
+    peak_sd_s = float(fitted.time_s[1] - fitted.time_s[0]) / math.sqrt(12)
     sd_s = math.hypot(
         passed_sd * rise_s / (1.0 - passed) ** 2, peak_sd_s * passed / (1.0 - passed), _IMPACT_SHARE_SD * before_s
     )
-    # It takes no longer to a pressed taxel than from there to the largest force: else the first sample was a late one.
-    return FollowedBack(float(time_s[0]) - before_s, sd_s, min(before_s, rise_s))
+    return at_s - before_s, sd_s
 
 
 def _peak(time_s: Array, force_n: Array, top: int) -> tuple[float, float]:
