@@ -196,31 +196,32 @@ def follow_back_impact(fitted: Footprint) -> FollowedBack | None:
     # samples where there is not one to a frame.
     nodes = min(2, top) if time_s.size > LEAST_NODES else 1
     found = [_followed_from(fitted, node, top, peak_s, peak_n) for node in range(nodes)]
-    weights = [sd_s**-2 for _, sd_s in found]
-    zero_s = sum(weight * each_s for weight, (each_s, _) in zip(weights, found, strict=True)) / sum(weights)
+    # By the model's errors alone: those of the samples are nearly the same in both.
+    weights = [model_sd_s**-2 for _, _, model_sd_s in found]
+    total = sum(weights)
+    zero_s = sum(weight * each_s for weight, (each_s, _, _) in zip(weights, found, strict=True)) / total
+    zero_sd_s = math.hypot(*(weight * sd_s for weight, (_, sd_s, _) in zip(weights, found, strict=True))) / total
     # It takes no longer to a pressed taxel than from there to the largest force: else the first sample was a late one.
     first_s = float(time_s[0])
-    return FollowedBack(zero_s, sum(weights) ** -0.5, min(max(first_s - zero_s, 0.0), peak_s - first_s))
+    return FollowedBack(zero_s, zero_sd_s, min(max(first_s - zero_s, 0.0), peak_s - first_s))
 
 
-def _followed_from(fitted: Footprint, node: int, top: int, peak_s: float, peak_n: float) -> tuple[float, float]:
-    """When the force was 0 by one of its values, and the standard deviation [s]; `top`: the largest of them."""
+def _followed_from(fitted: Footprint, node: int, top: int, peak_s: float, peak_n: float) -> tuple[float, float, float]:
+    """When the force was 0 by its value at this node, the standard deviation, and the model's part of that [s]."""
     at_s, share_n = float(fitted.time_s[node]), float(fitted.force_n[node]) / peak_n
     share = share_n ** (1.0 / _HERTZ_POWER)
     rise_s = peak_s - at_s
     passed = 2.0 / math.pi * math.asin(share)
     before_s = rise_s * passed / (1.0 - passed)
-    # Of the two forces' ratio, as the samples tell it and as the footprint's shape may be wrong.
+    # Of the two forces' ratio, as the footprint's shape may be wrong, and as the samples tell it.
+    shape_sd = math.hypot(FORCE_SD, _SMALLEST_SD / share_n)
     log = fitted.log_covariance
     log_sd = math.sqrt(max(float(log[node, node] + log[top, top] - 2.0 * log[node, top]), 0.0))
-    ratio_sd = math.hypot(log_sd, FORCE_SD, _SMALLEST_SD / share_n)
-    passed_sd = 2.0 / math.pi * share / math.sqrt(1.0 - share**2) / _HERTZ_POWER * ratio_sd
+    of_ratio_s = 2.0 / math.pi * share / math.sqrt(1.0 - share**2) / _HERTZ_POWER * rise_s / (1.0 - passed) ** 2
     # The largest force lies between two nodes.
     peak_sd_s = float(fitted.time_s[1] - fitted.time_s[0]) / math.sqrt(12)
-    sd_s = math.hypot(
-        passed_sd * rise_s / (1.0 - passed) ** 2, peak_sd_s * passed / (1.0 - passed), _IMPACT_SHARE_SD * before_s
-    )
-    return at_s - before_s, sd_s
+    model_sd_s = math.hypot(of_ratio_s * shape_sd, peak_sd_s * passed / (1.0 - passed), _IMPACT_SHARE_SD * before_s)
+    return at_s - before_s, math.hypot(model_sd_s, of_ratio_s * log_sd), model_sd_s
 
 
 def _peak(time_s: Array, force_n: Array, top: int) -> tuple[float, float]:
