@@ -16,7 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
-from acts_sim.hand.solid_kernels import TIP, WAVES, Bodies, add_wrenches, bumps, find_near, gap, in_solid, is_near
+from acts_sim.hand.solid_kernels import (
+    TIP,
+    WAVES,
+    Bodies,
+    add_wrenches,
+    bumps,
+    find_near,
+    gap,
+    in_solid,
+    is_near,
+    tip_depth,
+)
 
 # Columns of the results of each patch.
 FORCE, SLIDING_FORCE, SLIDING_SPEED, TIP_FORCE = range(4)
@@ -194,11 +205,20 @@ def _press_patch(
         touched[b] = patch["touched"] = True
         for i in range(first[b], end[b]):
             px, py, pz = point[i, 0], point[i, 1], point[i, 2]
+            mx, my, mz = normal[i, 0], normal[i, 1], normal[i, 2]
             by, depth, nx, ny, nz = -1, 0.0, 0.0, 0.0, 0.0
             for one in range(close[b]):
                 k = here[b, one]
                 s = solid[k]
                 x, y, z = in_solid(pos, turn, k, px, py, pz)
+                if kind[s] == TIP:
+                    ax = turn[k, 0, 0] * mx + turn[k, 1, 0] * my + turn[k, 2, 0] * mz
+                    ay = turn[k, 0, 1] * mx + turn[k, 1, 1] * my + turn[k, 2, 1] * mz
+                    az = turn[k, 0, 2] * mx + turn[k, 1, 2] * my + turn[k, 2, 2] * mz
+                    deep = tip_depth(size[s, 0], size[s, 1], x, y, z - cover, ax, ay, az)
+                    if deep > depth:
+                        depth, by, nx, ny, nz = deep, k, -mx, -my, -mz
+                    continue
                 distance, ax, ay, az = gap(kind[s], size, s, x, y, z, cover + uneven[s])
                 if distance >= cover + uneven[s]:
                     continue
@@ -210,7 +230,7 @@ def _press_patch(
                     ny = turn[k, 1, 0] * ax + turn[k, 1, 1] * ay + turn[k, 1, 2] * az
                     nz = turn[k, 2, 0] * ax + turn[k, 2, 1] * ay + turn[k, 2, 2] * az
             # A solid at the back of the link does not press its skin.
-            if by < 0 or nx * normal[i, 0] + ny * normal[i, 1] + nz * normal[i, 2] > 0.0:
+            if by < 0 or nx * mx + ny * my + nz * mz > 0.0:
                 bristle[i, 0] = bristle[i, 1] = bristle[i, 2] = 0.0
                 continue
             # Velocity of the solid relative to the skin at this point.

@@ -132,6 +132,7 @@ def gap(
     Parameters
     ----------
     kind : int
+        Of a `TIP`, `tip_depth` tells how deep it is.
     size : np.ndarray [shape=(solids, 4), dtype=float64]
         Of all solids, as in `SOLID`.
     s : int
@@ -151,12 +152,6 @@ def gap(
         distance = math.sqrt(square)
         scale = 1.0 / max(distance, 1e-12)
         return distance - size[s, 0], x * scale, y * scale, z * scale
-    if kind == TIP:
-        # A hemisphere whose end is the origin; its distance is measured along z, the direction in which it moves.
-        across = size[s, 0] * size[s, 0] - x * x - y * y
-        if across < 0.0 or z < -size[s, 1]:
-            return 1.0, 0.0, 0.0, 0.0
-        return z + size[s, 0] - math.sqrt(across), 0.0, 0.0, 1.0
     if kind == CYLINDER:
         square = x * x + y * y
         if abs(z) > size[s, 1] + within or square > (size[s, 0] + within) ** 2:
@@ -187,6 +182,49 @@ def gap(
     if b > c:
         return b - rounding, 0.0, sy, 0.0
     return c - rounding, 0.0, 0.0, sz
+
+
+@kernel(error_model="numpy")
+def tip_depth(radius: float, length: float, x: float, y: float, z: float, mx: float, my: float, mz: float) -> float:
+    """How deep a rod presses foam at a point: how far beyond the point it reaches into the skin [m]; 0 for not at all.
+
+    A point in the middle under a thin rod is nearer to its side than to its end, so the distance from its surface would
+    not tell. Measured along the rod, as deep as this would seem what only brushes a slanting skin.
+
+    Parameters
+    ----------
+    radius, length : float
+        Of the rod: along z, up to its round end at the origin [m].
+    x, y, z : float
+        The point [m].
+    mx, my, mz : float
+        The unit vector out of the skin there.
+    """
+    across = radius * radius - x * x - y * y
+    if across < 0.0 or z < -length or z + radius >= math.sqrt(across):
+        return 0.0
+    depth = _way_out(radius, length, x, y, z, -mx, -my, -mz)
+    # What reaches farther into the skin than out of it comes from behind and does not press.
+    return depth if depth < _way_out(radius, length, x, y, z, mx, my, mz) else 0.0
+
+
+@kernel(error_model="numpy")
+def _way_out(radius: float, length: float, x: float, y: float, z: float, ux: float, uy: float, uz: float) -> float:
+    """How far it is from a point of the rod along a unit vector until the rod ends; otherwise as in `tip_depth`."""
+    square = radius * radius - x * x - y * y - (z + radius) ** 2
+    along = x * ux + y * uy
+    whole = along + (z + radius) * uz
+    if whole * whole + square >= 0.0:
+        way = math.sqrt(whole * whole + square) - whole
+        if way >= 0.0 and z + way * uz >= -radius:
+            return way
+    # Not by the round end: by the side or the other end.
+    way = -(length + z) / uz if uz < 0.0 else math.inf
+    slant = ux * ux + uy * uy
+    if slant > 1e-9:
+        across = radius * radius - x * x - y * y
+        way = min(way, (math.sqrt(along * along + slant * across) - along) / slant)
+    return way
 
 
 @kernel(error_model="numpy")

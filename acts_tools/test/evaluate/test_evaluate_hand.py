@@ -18,7 +18,7 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.hand import HandWorldConfig, PatchTruth
 from acts_tools.cli import main
-from acts_tools.evaluate.hand import scenarios, slip, sphere
+from acts_tools.evaluate.hand import poke, scenarios, slip, sphere
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 from acts_tools.hand_rigs.rig import HandRig, RigOptions
 
@@ -100,6 +100,13 @@ def test_an_object_that_the_fingers_yield_to_moves_farther_than_it_slides() -> N
     assert outcome.details["slid_mm"] < 0.2
     assert outcome.noticed_ms is None
     assert not outcome.ok, "0.2 mm of motion has to be noticed, however it comes about"
+
+
+@pytest.mark.parametrize("seed", [848, 1090])
+def test_a_blunt_end_that_brushes_the_next_segment_is_no_tip(seed: int) -> None:
+    outcome = poke.blunt(Run(seed))
+    assert outcome.ok
+    assert outcome.details["alarms"] == 0
 
 
 def test_sliding_is_the_mean_over_the_patches_weighted_by_force() -> None:
