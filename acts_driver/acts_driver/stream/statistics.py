@@ -15,7 +15,8 @@ _HALF = 1 << 31
 _BIN_NS = 100_000_000
 _BINS = 10
 _RECENT = 64
-_CLOCKS_AGREE_NS = 50_000_000
+# How long a frame may wait until a busy machine reads it [ns].
+_LATE_NS = 500_000_000
 
 
 class StreamStatistics:
@@ -136,7 +137,8 @@ class StreamStatistics:
         """Whether, after a reconnection, the board's clock tells that the board was without power meanwhile."""
         passed_ns = arrival_ns - self._measured_ns
         difference_ns = (board_us - self._board_us) * 1000 - passed_ns
-        return abs(difference_ns) > _CLOCKS_AGREE_NS + DRIFT_MAX * passed_ns
+        # A board that was off is behind by more than all the time that it was on before.
+        return abs(difference_ns) > min(_LATE_NS, self._board_us * 500) + DRIFT_MAX * passed_ns
 
     def _count_rate(self, arrival_ns: int) -> None:
         number = arrival_ns // _BIN_NS

@@ -57,6 +57,13 @@ def test_after_a_reconnection_the_clock_tells_a_gap_from_a_restart() -> None:
     assert (statistics.lost, statistics.restarts) == (2999, 1)
 
 
+def test_a_frame_that_waited_to_be_read_after_a_reconnection_is_of_no_restarted_board() -> None:
+    statistics = fed((1007, 1000), (1008, 1001))
+    statistics.reconnected()
+    assert statistics.observe(1308, 1_301_000, 0, T0 + 1_701 * MS)
+    assert (statistics.lost, statistics.restarts) == (299, 0)
+
+
 def test_rate_of_the_last_second() -> None:
     statistics = StreamStatistics()
     for k in range(3000):
