@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Read a board over its serial port, and tell once a second what it sends and what presses.
+"""Read a board over its serial port, and tell once a second, and at the end, what it sends and what presses.
 
 python3 examples/read_board.py auto                                # the only Teensy that is plugged in
 python3 examples/read_board.py /dev/ttyUSB0 --ascii 16 16          # lines of text from an array of 16 x 16
@@ -17,6 +17,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ActsError
 from acts_core.wire import RasterDecoder, StreamDecoder
 from acts_driver.port import SerialSource
+from acts_recon.contacts import Contact
 from acts_recon.methods import Fusion, Recovery, SkinSetup
 
 
@@ -41,6 +42,7 @@ def main() -> None:
 
 def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: float) -> None:
     recovery: Recovery | None = None
+    contact: Contact | None = None
     begin_s = told_s = time.monotonic()
     frames = 0
     while (now_s := time.monotonic()) < begin_s + seconds:
@@ -57,17 +59,22 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
             contact = recovery.step(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6)
         if now_s >= told_s + 1.0:
             told_s = now_s
-            damaged = decoder.crc_errors + decoder.malformed
-            print(f"{frames} frames, {damaged} packets damaged", end="")
-            if frames + damaged == 0:
-                print(" (does the board's sketch run, and print?)", end="")
-            if decoder.last_error:
-                print(f" (the last: {decoder.last_error})", end="")
-            if recovery is not None and contact.in_contact:
-                print(f"; touched at x {1000 * contact.x_m:.1f} mm, y {1000 * contact.y_m:.1f} mm", end="")
-            print(flush=True)
+            tell(decoder, frames, contact)
     if frames == 0:
         sys.exit(f"error: no frame from {source.name} in {seconds:g} s")
+    tell(decoder, frames, contact)
+
+
+def tell(decoder: RasterDecoder | StreamDecoder, frames: int, contact: Contact | None) -> None:
+    damaged = decoder.crc_errors + decoder.malformed
+    print(f"{frames} frames, {damaged} packets damaged", end="")
+    if frames + damaged == 0:
+        print(" (does the board's sketch run, and print?)", end="")
+    if decoder.last_error:
+        print(f" (the last: {decoder.last_error})", end="")
+    if contact is not None and contact.in_contact:
+        print(f"; touched at x {1000 * contact.x_m:.1f} mm, y {1000 * contact.y_m:.1f} mm", end="")
+    print(flush=True)
 
 
 if __name__ == "__main__":

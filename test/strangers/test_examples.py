@@ -11,7 +11,8 @@ import runpy
 import subprocess
 import sys
 import tty
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -88,32 +89,46 @@ def test_a_dictionary_is_learnt_that_the_reconstruction_takes(run: Run, presses:
     Reconstructor(ArrayGeometry(16, 12), dictionary)
 
 
-@pytest.mark.parametrize("protocol", ["binary", "raster_ascii"])
-def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) -> None:
+@contextmanager
+def virtual_board(folder: Path, protocol: str) -> Iterator[Path]:
+    """A virtual board of 16 x 16 taxels, pressed at row 4, column 11; its port."""
     rows, cols = np.indices((16, 16))
     press = np.rint(600 * np.exp(-((rows - 4) ** 2 + (cols - 11) ** 2) / 4)).astype(np.uint16)
-    np.save(tmp_path / "press.npy", np.repeat(press[np.newaxis], 2, axis=0))
+    np.save(folder / "press.npy", np.repeat(press[np.newaxis], 2, axis=0))
     program = Path(get_package_prefix("acts_firmware")) / "lib/acts_firmware/virtual_board"
     options = ["--rows", "16", "--cols", "16", "--scheme", "tracking", "--m", "55", "--protocol", protocol]
-    options += ["--recording", str(tmp_path / "press.npy"), "--link", str(tmp_path / "board"), "--print-status"]
+    options += ["--recording", str(folder / "press.npy"), "--link", str(folder / "board"), "--print-status"]
     with subprocess.Popen([str(program), *options], stdout=subprocess.PIPE, text=True) as board:
         try:
             assert board.stdout is not None
             assert board.stdout.readline().startswith("{")
-            words = ["--ascii", "16", "16"] if protocol == "raster_ascii" else []
-            # On a busy machine a second may be too short to find the press.
-            for _ in range(TRIES):
-                said = run("read_board.py", str(tmp_path / "board"), "--seconds", "1.2", *words).splitlines()[-1]
-                assert "frames, 0 packets damaged" in said
-                if "touched at" in said:
-                    break
+            yield folder / "board"
         finally:
             board.kill()
+
+
+@pytest.mark.parametrize("protocol", ["binary", "raster_ascii"])
+def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) -> None:
+    words = ["--ascii", "16", "16"] if protocol == "raster_ascii" else []
+    with virtual_board(tmp_path, protocol) as port:
+        # On a busy machine a second may be too short to find the press.
+        for _ in range(TRIES):
+            said = run("read_board.py", str(port), "--seconds", "1.2", *words).splitlines()[-1]
+            assert "frames, 0 packets damaged" in said
+            if "touched at" in said:
+                break
     frames, damaged, x_mm, y_mm = map(float, re.findall(r"-?\d+(?:\.\d+)?", said))
     geometry = ArrayGeometry(16, 16)
     assert frames > 10
     assert damaged == 0
     assert (x_mm, y_mm) == pytest.approx((1000 * float(geometry.x_m(11)), 1000 * float(geometry.y_m(4))), abs=0.5)
+
+
+def test_what_came_in_less_than_a_second_is_told_at_the_end(run: Run, tmp_path: Path) -> None:
+    with virtual_board(tmp_path, "binary") as port:
+        said = run("read_board.py", str(port), "--seconds", "0.9").splitlines()
+    assert said[0].startswith("an array of 16 x 16")
+    assert "frames, 0 packets damaged" in said[1]
 
 
 def test_a_port_that_sends_nothing_is_told(run: Run) -> None:
