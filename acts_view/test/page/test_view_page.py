@@ -207,29 +207,6 @@ def test_keys_act_wherever_the_last_click_was(play: Callable[..., Player], open_
     expect(page.locator(".skin .pill")).to_have_text("paused")
 
 
-def test_keys_that_are_turned_off_stay_off_and_buttons_have_theirs(
-    play: Callable[..., Player], open_page: Callable[..., Page]
-) -> None:
-    page = open_page(play())
-    page.click("#keys")
-    page.reload()
-    page.wait_for_selector(".skin .pill[data-state=live]")
-    expect(page.locator("#keys")).to_have_attribute("aria-pressed", "false")
-    page.focus("canvas.marks")
-    for key in ("s", "n", "m", "i", "d", "+", " "):
-        page.keyboard.press(key)
-    page.focus("#measured")
-    page.keyboard.press(" ")
-    # Of what was pressed only the button acted.
-    expect(page.locator("#measured")).to_have_attribute("aria-pressed", "true")
-    expect(page.locator("#scale")).to_have_value("fixed")
-    expect(page.locator("#theme")).to_have_text("Theme: auto")
-    expect(page.locator(".skin .pill")).to_have_text("live")
-    page.click("#keys")
-    page.keyboard.press("s")
-    expect(page.locator("#scale")).to_have_value("adaptive")
-
-
 @pytest.mark.parametrize(("key", "pressed_of"), [("i", "#smooth"), (" ", "#pause")])
 def test_a_key_that_is_kept_down_acts_once(
     play: Callable[..., Player], open_page: Callable[..., Page], key: str, pressed_of: str

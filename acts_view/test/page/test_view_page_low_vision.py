@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The page for who sees little or nothing, in a real browser: what is read out by itself, and text twice as large."""
+"""The page for who sees little or nothing, in a real browser: what is read out, keys turned off, large text."""
 
 from __future__ import annotations
 
@@ -151,3 +151,26 @@ def test_the_buttons_of_the_bar_are_a_group_and_promise_no_keys_of_a_toolbar(
 ) -> None:
     page = open_page(play())
     expect(page.get_by_role("group", name="What is shown").get_by_role("button", name="Pause")).to_be_visible()
+
+
+def test_keys_that_are_turned_off_stay_off_and_buttons_have_theirs(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    page.click("#keys")
+    page.reload()
+    page.wait_for_selector(".skin .pill[data-state=live]")
+    expect(page.locator("#keys")).to_have_attribute("aria-pressed", "false")
+    page.focus("canvas.marks")
+    for key in ("s", "n", "m", "i", "d", "+", " "):
+        page.keyboard.press(key)
+    page.focus("#measured")
+    page.keyboard.press(" ")
+    # Of what was pressed only the button acted.
+    expect(page.locator("#measured")).to_have_attribute("aria-pressed", "true")
+    expect(page.locator("#scale")).to_have_value("fixed")
+    expect(page.locator("#theme")).to_have_text("Theme: auto")
+    expect(page.locator(".skin .pill")).to_have_text("live")
+    page.click("#keys")
+    page.keyboard.press("s")
+    expect(page.locator("#scale")).to_have_value("adaptive")
