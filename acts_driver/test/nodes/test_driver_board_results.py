@@ -41,10 +41,10 @@ def rig() -> Iterator[Rig]:
 
 @pytest.fixture
 def board(tmp_path: Path) -> Iterator[VirtualBoard]:
-    """Pressed first high, then low, again and again; slow enough for driver and listener in one busy process."""
+    """Pressed first high, then low, again and again."""
     frames = [press(8, 12)] * 20 + [press(24, 12)] * 20
     np.save(tmp_path / "presses.npy", np.array(frames))
-    options = ("--recording", str(tmp_path / "presses.npy"), "--recording-rate-hz", "100", "--loop", "--rate-hz", "200")
+    options = ("--recording", str(tmp_path / "presses.npy"), "--recording-rate-hz", "100", "--loop")
     with VirtualBoard(tmp_path / "board", *options) as board:
         yield board
 
