@@ -87,14 +87,14 @@ class Stalls:
         self._longest_s = longest_s
         self._looked_s = self._ended_s = -math.inf
         self._stood_still_s = 0.0
-        self._timer = steady_timer(node, _LOOK_PERIOD_S, self._look)
+        steady_timer(node, _LOOK_PERIOD_S, self._look)
 
     def begin(self) -> None:
         """Count from now on, where the executor is about to begin; otherwise from the first tenth of a second on."""
         self._look()
 
     def objection(self) -> str:
-        """Why a motion that is asked for now may have been meant for earlier, and what to do; empty where it cannot."""
+        """Why a motion that is asked for now is to be refused, and what to do; empty where it need not be."""
         if self._look() - self._ended_s > self._longest_s:
             return ""
         return f"this program stood still for {self._stood_still_s:.1f} s, and was perhaps asked meanwhile; ask again"
