@@ -31,8 +31,8 @@ from acts_sim.hand.truth import COLUMN, PATCH_COLUMNS, PATCHES_FROM, HandTruth, 
 STEP_S = 0.002
 """Length of a step [s]."""
 
-# Substeps of the physics: foam on a light object is a stiff spring.
-_SUBSTEPS, _LIGHT_SUBSTEPS, _LIGHT_KG = 2, 4, 0.1
+# Of the physics in a step: foam that is pressed hard, or by a light object, is a stiff spring with much damping.
+_SUBSTEPS = 4
 _SMALLEST_KG = 0.01
 
 _GRAVITY_M_S2 = 9.81
@@ -127,9 +127,7 @@ class HandWorld:
         self._thing: HeldObject | None = None
         if config.object != "none":
             self._thing = held_object(config.object, config.object_size_m, config.object_mass_kg)
-        is_light = self._thing is not None and self._thing.mass_kg < _LIGHT_KG
-        self._substeps = _LIGHT_SUBSTEPS if is_light else _SUBSTEPS
-        self._model = hand_model.build(self._thing, STEP_S / self._substeps)
+        self._model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
         self._data = mujoco.MjData(self._model)
         self.layout = layout(config.layout, 32, 32)
         self._require_links()
@@ -250,8 +248,8 @@ class HandWorld:
         """
         data = self._data
         data.qfrc_applied[self._dof] = [motor.step(STEP_S) for motor in self.motors]
-        for _ in range(self._substeps):
-            self._substep(STEP_S / self._substeps)
+        for _ in range(_SUBSTEPS):
+            self._substep(STEP_S / _SUBSTEPS)
         if any(data.warning[kind].number for kind in _UNSTABLE):
             raise ActsError(f"the hand's world is unstable after {self.time_s:.3f} s; the object may be too light")
         self._give_shafts()

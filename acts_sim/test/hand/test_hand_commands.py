@@ -165,6 +165,30 @@ def test_a_light_object_squeezed_and_shaken_stays_within_reason(name: str, mass_
     assert fastest < 1.0
 
 
+# Of a hand in which `slip` has tightened the grip as far as it may.
+FIRM_GRIP = (0.94, 1.63, 0.64, 0.5, 1.04, 1.36, 0.49, 1.62, 0.98, 1.14, 1.31, 1.06, 2.09, 1.15, 0.51, 0.7)
+
+
+def test_a_cylinder_that_is_gripped_firmly_stands_still() -> None:
+    world = HandWorld(
+        HandWorldConfig(
+            object="cylinder",
+            object_size_m=0.022,
+            object_mass_kg=0.156,
+            object_x_m=0.001,
+            pose="thumb_up",
+            object_held=True,
+        )
+    )
+    switch_on(world)
+    close(world, FIRM_GRIP, 500, 0)
+    world.holder.let_go()
+    run(world, 0.5)
+    speeds = [float(np.linalg.norm(run(world, STEP_S).object_velocity_m_s)) for _ in range(50)]
+    assert world.truth.patches["palm"].force_n > 8.0
+    assert max(speeds) < 0.001
+
+
 def test_a_mass_that_physics_cannot_follow_is_refused() -> None:
     with pytest.raises(SettingsError, match="object_mass_kg"):
         HandWorldConfig(object_mass_kg=0.001)
