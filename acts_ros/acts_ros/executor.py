@@ -12,12 +12,13 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 
 import rclpy
+from rclpy.exceptions import InvalidParameterTypeException, ParameterUninitializedException
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from acts_core.errors import ActsError, SettingsError, exit_code
+from acts_core.errors import REFUSED_EXIT_CODE, ActsError, SettingsError, exit_code
 from acts_core.stop_signals import StopSignals
 from acts_ros import middleware
 
@@ -68,7 +69,8 @@ def run(
     Returns
     -------
     int
-        Exit code: 0 after an orderly stop; after an `ActsError` 2 where the settings are the cause, and 1 otherwise.
+        Exit code: 0 after an orderly stop; after an `ActsError` 2 where the settings are the cause, and 1 otherwise; 2
+        for a parameter of ROS of the wrong type.
     """
     signals = StopSignals() if signals is None else signals
     middleware.init(
@@ -94,6 +96,10 @@ def run(
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)
         return exit_code(error)
+    except (InvalidParameterTypeException, ParameterUninitializedException) as error:
+        # Of the parameters that ROS itself declares, such as use_sim_time.
+        print(f"error: {error} (on the command line or in a params file)", file=sys.stderr, flush=True)
+        return REFUSED_EXIT_CODE
     except KeyboardInterrupt:
         return 0
     finally:

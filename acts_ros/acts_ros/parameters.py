@@ -27,20 +27,20 @@ from acts_core.settings import (
 )
 from acts_ros.parameter_service import CheckedParameterService
 from acts_ros.params_files import misnamed_sections, shared_keys
+from acts_ros.qos import OVERRIDES, check_overrides
 
 T = TypeVar("T")
 
 _ROS_OWN = ("use_sim_time", "start_type_description_service")
-_ROS_OWN_PREFIXES = ("qos_overrides.",)
 
 
 def node_options() -> dict[str, Any]:
     """Keyword arguments that a node using `declare` passes to ``Node.__init__``.
 
-    All given parameters are declared, so that `declare` finds unknown ones; otherwise ROS drops a misspelt parameter
-    silently. The services of the parameters are made by `declare` as well.
+    The services of the parameters are made by `declare`. ROS is not to declare what is given: for an empty list it
+    would end the process, without the parameter's name.
     """
-    return {"automatically_declare_parameters_from_overrides": True, "start_parameter_services": False}
+    return {"start_parameter_services": False}
 
 
 def declare(
@@ -75,16 +75,19 @@ def declare(
     Raises
     ------
     SettingsError
-        For an unknown parameter, a wrong type or a value out of range, naming node, parameter and what is allowed.
+        For an unknown parameter, a wrong type or a value out of range, naming node, parameter and what is allowed; also
+        where ``qos_overrides`` are none (`acts_ros.qos.check_overrides`).
     """
     where = node.get_fully_qualified_name()
     infos = describe(settings_class)
-    given = _taken_back(node)
+    given = _given(node)
     words = sys.argv if words is None else words
     for sentence in misnamed_sections(where, words):
         node.get_logger().warning(sentence)
-    _judge_unknown(node, [name for name in given if name not in infos], list(infos), words)
+    unknown = [name for name in given if name not in infos and not name.startswith(OVERRIDES)]
+    _judge_unknown(node, unknown, list(infos), words)
     try:
+        check_overrides(given)
         known = {name: value for name, value in given.items() if name in infos}
         settings = from_mapping(settings_class, known, where)
     except SettingsError as error:
@@ -100,14 +103,15 @@ def declare(
     return settings
 
 
-def _taken_back(node: Node) -> dict[str, Any]:
-    """The parameters that were given, but for those of ROS; their declaration is taken back."""
-    given: dict[str, Any] = {}
-    for name in [str(name) for name in node.get_parameters_by_prefix("")]:
-        if name not in _ROS_OWN and not name.startswith(_ROS_OWN_PREFIXES):
-            given[name] = node.get_parameter(name).value
-            node.undeclare_parameter(name)
-    return given
+def _given(node: Node) -> dict[str, Any]:
+    """What the command line, params files and the node's maker give, but for what ROS has read already."""
+    return {
+        # Of an empty list, ROS does not know of what, and takes it for no value.
+        name: [] if parameter.type_ is Parameter.Type.NOT_SET else parameter.value
+        # rclpy has no other name for them: its methods know declared parameters only.
+        for name, parameter in node._parameter_overrides.items()
+        if name not in _ROS_OWN
+    }
 
 
 def _judge_unknown(node: Node, unknown: Sequence[str], known: Sequence[str], words: Sequence[str]) -> None:

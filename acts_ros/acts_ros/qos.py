@@ -7,11 +7,23 @@
 For publishers and subscriptions made with `overridable`, ``qos_overrides`` in a params file can change this.
 """
 
+from collections.abc import Mapping
 from copy import copy
 from typing import Any
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
+
+from acts_core.errors import SettingsError
+
+OVERRIDES = "qos_overrides."
+"""How the names of the parameters begin that override quality of service."""
+
+_DEPTH_MAX = 2**31 - 1
+_WORDS = {
+    "history": ("keep_last", "keep_all", "system_default"),
+    "reliability": ("reliable", "best_effort", "system_default"),
+}
 
 STREAM = QoSProfile(
     reliability=ReliabilityPolicy.BEST_EFFORT,
@@ -53,3 +65,32 @@ def overridable(profile: QoSProfile) -> dict[str, Any]:
     The profile is copied, because rclpy writes the overrides into the profile that it is given.
     """
     return {"qos_profile": copy(profile), "qos_overriding_options": QoSOverridingOptions.with_default_policies()}
+
+
+def check_overrides(given: Mapping[str, object]) -> None:
+    """Refuse overrides that rclpy passes over silently, or ends the process for with a traceback.
+
+    Parameters
+    ----------
+    given : mapping of str to object
+        Values of parameters by name; those that do not begin with `OVERRIDES` are not looked at.
+
+    Raises
+    ------
+    SettingsError
+        For another policy than `overridable` has, or a value that it cannot have.
+    """
+    for name, value in given.items():
+        if not name.startswith(OVERRIDES):
+            continue
+        policy = name.rpartition(".")[2]
+        if policy == "depth":
+            # A truth value is a whole number to Python.
+            fits, allowed = type(value) is int and 1 <= value <= _DEPTH_MAX, f"a whole number, 1 to {_DEPTH_MAX}"
+        elif policy in _WORDS:
+            words = _WORDS[policy]
+            fits, allowed = isinstance(value, str) and value.lower() in words, f"one of {', '.join(words)}"
+        else:
+            raise SettingsError(f"{name}: {policy!r} cannot be overridden; allowed are depth, {', '.join(_WORDS)}")
+        if not fits:
+            raise SettingsError(f"{name} = {value!r}: allowed is {allowed}")

@@ -78,6 +78,32 @@ def test_ros_own_parameters_are_let_through(context: Context) -> None:
     assert declare(node, Settings) == Settings()
 
 
+@pytest.mark.parametrize("kind", [Node, LifecycleNode])
+@pytest.mark.parametrize("name", ["rate_hz", "port", "home_rad"])
+def test_an_empty_list_is_refused_by_the_name_of_its_parameter(context: Context, name: str, kind: type[Node]) -> None:
+    with pytest.raises(SettingsError, match=rf"/plate/example: {name} = \[\]: allowed is"):
+        declare(make_node(context, ["-p", f"{name}:=[]"], kind), Settings)
+
+
+@pytest.mark.parametrize(
+    ("override", "said"),
+    [
+        ("depth:=0", "depth = 0: allowed is a whole number, 1 to"),
+        ("depth:=-1", "depth = -1: allowed is a whole number, 1 to"),
+        ("depth:=99999999999", "depth = 99999999999: allowed is a whole number, 1 to"),
+        ("depth:=many", "depth = 'many': allowed is a whole number, 1 to"),
+        ("depth:=true", "depth = True: allowed is a whole number, 1 to"),
+        ("depth:=[]", r"depth = \[\]: allowed is a whole number, 1 to"),
+        ("reliability:=sure", "reliability = 'sure': allowed is one of reliable, best_effort"),
+        ("history:=5", "history = 5: allowed is one of keep_last, keep_all"),
+        ("dept:=5", "'dept' cannot be overridden; allowed are depth, history, reliability"),
+    ],
+)
+def test_quality_of_service_that_is_none_is_refused(context: Context, override: str, said: str) -> None:
+    with pytest.raises(SettingsError, match=rf"/plate/example: qos_overrides\./x\.publisher\..*{said}"):
+        declare(make_node(context, ["-p", f"qos_overrides./x.publisher.{override}"]), Settings)
+
+
 def test_without_a_handler_nothing_is_changeable(context: Context) -> None:
     node = make_node(context, [])
     declare(node, Settings)

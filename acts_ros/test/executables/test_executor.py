@@ -163,6 +163,16 @@ def test_an_error_at_start_is_one_line_and_the_exit_code_tells_whether_to_try_ag
     assert output == ""
 
 
+@pytest.mark.parametrize("value", ["1", "[]", "maybe"])
+def test_a_parameter_of_ros_of_the_wrong_type_is_refused_in_one_line(value: str) -> None:
+    with started("--ros-args", "-p", f"use_sim_time:={value}") as process:
+        output, errors = process.communicate(timeout=60)
+    assert (process.returncode, output) == (REFUSED_EXIT_CODE, "")
+    assert errors.startswith("error: ")
+    assert "'use_sim_time'" in errors
+    assert errors.count("\n") == 1
+
+
 def test_two_nodes_of_one_name_are_refused() -> None:
     with started("two") as process:
         output, errors = process.communicate(timeout=60)
