@@ -94,6 +94,14 @@ def test_a_grip_current_that_no_motor_is_given_is_refused() -> None:
     assert HandSettings(max_current_ma=100).max_current_ma == 100
 
 
+@BOTH_NODES
+def test_motors_at_no_port_are_refused(settings: type) -> None:
+    for port in ("", " "):
+        with pytest.raises(SettingsError, match="port is empty: needed is the serial port"):
+            settings(port=port)
+    assert settings(port="", interface="cmd_leap").port == "", "it has no port"
+
+
 def test_the_leap_teams_node_takes_no_hand_of_another_number_of_joints() -> None:
     fewer = replace(LEAP_RIGHT, joints=LEAP_RIGHT.joints[:15])
     with pytest.raises(SettingsError, match=r"interface = cmd_leap: .* 16 joints; leap_right has 15.*interface:=dynam"):

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.settings import setting, validate
 
 
@@ -30,6 +30,8 @@ class BusConfig:
 
     def __post_init__(self) -> None:
         validate(self)
+        if not self.port.strip():
+            raise SettingsError("port is empty: needed is the serial port of the motors, such as /dev/ttyUSB0")
 
     def check_rate(self, rate_hz: float) -> None:
         """Refuse a rate of the hand's loop at which these motors would stop by themselves; any is right here.
