@@ -69,12 +69,16 @@ class FileClaim:
     ------
     SettingsError
         Another process uses it, and still after `_WAIT_S` (the message names it); the folder is not allowed
-        (`make_private`).
+        (`make_private`); the path is empty.
     ActsError
         The lock cannot be made, as on a full disk.
     """
 
     def __init__(self, path: Path) -> None:
+        if not path.name:
+            raise SettingsError(
+                f"the path '{path}' names no file; needed is one such as {default_run_dir()}/field.ring"
+            )
         make_private(path.parent)
         self._path = path.with_name(f"{path.name}.lock")
         try:

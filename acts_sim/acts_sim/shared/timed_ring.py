@@ -41,7 +41,7 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 
 JOINT_RING_WIDTH = 12
 """Values in a slot of the ring of a UR5e's joints: six angles [rad], then six velocities [rad/s], base to wrist 3."""
@@ -61,7 +61,7 @@ def _slot_dtype(width: int) -> np.dtype:
 
 
 class TimedRingWriter:
-    """Creates the file, replacing an old one, and writes to it.
+    """Creates the file, replacing an old ring, and writes to it.
 
     Parameters
     ----------
@@ -74,6 +74,8 @@ class TimedRingWriter:
 
     Raises
     ------
+    SettingsError
+        When something else than a ring is there, which would be lost.
     ActsError
         When the file cannot be created, or `width` or `slots` is too small.
     """
@@ -83,6 +85,7 @@ class TimedRingWriter:
             raise ActsError(
                 f"{path}: a ring of {slots} slots of {width} values; allowed are 2 slots and 1 value or more"
             )
+        _require_replaceable(path)
         self.path = path
         self.width = width
         dtype = _slot_dtype(width)
@@ -311,6 +314,23 @@ class TimedRingReader:
 
     def _stuck(self) -> ActsError:
         return ActsError(f"{self.path}: a slot never came to rest; is its writer stuck?")
+
+
+def _require_replaceable(path: Path) -> None:
+    """Refuse what a ring would take the place of: a file with something else in it, a folder, a device, a link."""
+    try:
+        mode = path.lstat().st_mode
+        # Only a file is opened: opening a pipe would wait for its writer.
+        if stat.S_ISREG(mode):
+            with path.open("rb") as file:
+                if file.read(len(_MAGIC)) == _MAGIC:
+                    return
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise SettingsError(f"{path} cannot be looked at ({error.strerror}); name another file for the ring") from error
+    kind = "a directory" if stat.S_ISDIR(mode) else "there"
+    raise SettingsError(f"{path} is {kind} and is no ring, and would be lost; name another file for the ring")
 
 
 def _identity(path: Path) -> tuple[int, int] | None:

@@ -78,6 +78,12 @@ def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
         make_private(tmp_path / "run")
 
 
+@pytest.mark.parametrize("path", [Path(), Path("/")])
+def test_a_path_that_names_no_file_is_refused(path: Path) -> None:
+    with pytest.raises(SettingsError, match=r"names no file; needed is"):
+        FileClaim(path)
+
+
 def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_given_up(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
     claim = FileClaim(ring)

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acts_core.errors import ActsError
+from acts_core.errors import ActsError, SettingsError
 from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 pytestmark = pytest.mark.slow
@@ -147,6 +148,25 @@ def test_a_writer_removes_only_its_own_file(path: Path) -> None:
     new.close()
     assert not path.exists()
     assert list(path.parent.iterdir()) == []
+
+
+def make_file(path: Path) -> None:
+    path.write_bytes(b"notes of somebody")
+
+
+def make_link(path: Path) -> None:
+    make_file(path.with_name("target"))
+    path.symlink_to("target")
+
+
+@pytest.mark.parametrize("make", [make_file, make_link, Path.touch, Path.mkdir, os.mkfifo])
+def test_what_is_no_ring_is_not_replaced(path: Path, make: Callable[[Path], None]) -> None:
+    make(path)
+    before = path.lstat()
+    with pytest.raises(SettingsError, match=r"test\.ring is .* and is no ring.*name another file"):
+        TimedRingWriter(path, 3)
+    assert os.path.samestat(path.lstat(), before)
+    assert path.lstat().st_size == before.st_size
 
 
 def test_a_new_ring_of_another_width_is_refused(path: Path) -> None:
