@@ -64,6 +64,11 @@ class BallWorldSettings(RealtimeConfig, WorldConfig):
                 f"truth_period_s = {self.truth_period_s:g}: allowed are whole steps of {STEP_NS * 1e-9:g} s, in which "
                 "the world is computed"
             )
+        if self.field_ring and self.field_ring == self.joint_ring:
+            raise SettingsError(
+                f"field_ring and joint_ring are both {self.field_ring}: each needs a file of its own; without a robot "
+                "joint_ring is none"
+            )
 
     @property
     def truth_steps(self) -> float:

@@ -71,7 +71,11 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
     )
     add_settings(parser, ControllerSettings)
-    return parser.parse_args(own_words(arguments))
+    options = parser.parse_args(own_words(arguments))
+    # An empty one would be every address of this machine.
+    if not options.host.strip():
+        parser.error("--host is empty: needed is an address of this machine, such as 127.0.0.1")
+    return options
 
 
 def run(options: argparse.Namespace, signals: StopSignals) -> None:

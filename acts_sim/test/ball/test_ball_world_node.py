@@ -21,10 +21,11 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from acts_core.errors import REFUSED_EXIT_CODE
+from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse
 from acts_ros import qos
+from acts_sim.ball.ball_world_node import BallWorldSettings
 from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 pytestmark = pytest.mark.slow
@@ -175,6 +176,11 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
         assert process.returncode == 0
         assert "Traceback" not in errors
         assert not (tmp_path / "run" / "field.ring").exists()
+
+
+def test_one_file_for_both_rings_is_refused() -> None:
+    with pytest.raises(SettingsError, match=r"field_ring and joint_ring are both /tmp/a\.ring"):
+        BallWorldSettings(field_ring="/tmp/a.ring", joint_ring="/tmp/a.ring")
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from motor_bus import IDS, MotorBus
 
 from acts_core.skin import layout
 from acts_sim.hand import HandTruth, TruthFollower
+from acts_sim.hand.process.main import parse
 from acts_sim.shared import TimedRingReader
 
 pytestmark = pytest.mark.slow
@@ -176,6 +177,14 @@ def make_world(config):
 process.HandWorld = make_world
 sys.exit(Program("acts_sim.hand.process.main")())
 """
+
+
+@pytest.mark.parametrize(("one", "other"), [("--field-ring", "--truth-ring"), ("--link", "--control")])
+def test_one_path_for_two_files_is_refused(capsys: pytest.CaptureFixture[str], one: str, other: str) -> None:
+    with pytest.raises(SystemExit) as ended:
+        parse([one, "/tmp/same", other, "/tmp/same"])
+    assert ended.value.code == 2
+    assert f"{one} and {other} are both /tmp/same" in capsys.readouterr().err
 
 
 def test_a_signal_while_the_world_is_made_ends_the_process_in_order_and_at_once(tmp_path: Path) -> None:

@@ -220,6 +220,7 @@ def test_busy_port_is_named(simulator: Simulator) -> None:
             "This robot is simulated, and nothing is controlled at 192.0.2.1: for the real robot",
         ),
         (["--host", "127.0.1.21", "--joint-ring", "/proc/nowhere/ring"], "/proc/nowhere"),
+        (["--host", ""], "--host is empty: needed is an address"),
     ],
 )
 def test_bad_arguments_are_refused(arguments: list[str], named: str) -> None:

@@ -25,6 +25,8 @@ from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_ru
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
 
+_FILES = ("link", "field-ring", "truth-ring", "control")
+
 
 def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig]:
     """Parse the command line; arguments from ``--ros-args`` on are ignored."""
@@ -50,6 +52,11 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
     options.field_ring = options.field_ring or run_dir / "field.ring"
     options.truth_ring = options.truth_ring or run_dir / "truth.ring"
     options.control = options.control or run_dir / "hand.control"
+    files = {f"--{name}": getattr(options, name.replace("-", "_")) for name in _FILES}
+    for name, path in files.items():
+        others = [other for other, taken in files.items() if taken.absolute() == path.absolute() and other != name]
+        if others:
+            parser.error(f"{name} and {others[0]} are both {path}: each needs a path of its own")
     return options, settings_from(options, HandWorldConfig)
 
 
