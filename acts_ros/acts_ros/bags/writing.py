@@ -16,6 +16,9 @@ from rosbags.rosbag2.errors import WriterError
 from acts_core.errors import RecordingError
 from acts_ros.bags.rosbag2_format import McapFile, Rosbag2Writer
 
+# A clock that is further behind was set back; one that is less is adjusted [ns].
+_SET_BACK_NS = 100_000_000
+
 
 class BagWriter:
     """An MCAP bag in rosbag2's layout. After a failed write, `write` and `flush` raise the error again.
@@ -37,7 +40,7 @@ class BagWriter:
         if path.exists():
             raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder")
         self.path = path
-        self._last_stamp_ns = 0
+        self._last_stamp_ns = self._ahead_ns = 0
         self._failure: RecordingError | None = None
         try:
             self._writer = Rosbag2Writer(path)
@@ -57,12 +60,15 @@ class BagWriter:
         )
 
     def write(self, topic: Any, data: bytes) -> None:
-        """Write one serialised message with the present time. Stamps never decrease, even if the clock is set back."""
+        """Write one serialised message with the present time.
+
+        Stamps never decrease. After the clock was set back they go on from the last one, as far apart as before, until
+        the clock has caught up.
+        """
         if self._failure is not None:
             raise self._failure
-        self._last_stamp_ns = max(time.time_ns(), self._last_stamp_ns)
         try:
-            self._writer.write(topic, self._last_stamp_ns, data)
+            self._writer.write(topic, self._stamp_ns(), data)
         except OSError as error:
             raise self._give_up(error) from error
 
@@ -92,6 +98,16 @@ class BagWriter:
     def size_bytes(self) -> int:
         """Size of its files [bytes]."""
         return sum(path.stat().st_size for path in self.path.iterdir())
+
+    def _stamp_ns(self) -> int:
+        """The present time for a message."""
+        now_ns, last_ns = time.time_ns(), self._last_stamp_ns
+        if now_ns >= last_ns:
+            self._ahead_ns = 0
+        elif now_ns + self._ahead_ns < last_ns - _SET_BACK_NS:
+            self._ahead_ns = last_ns - now_ns
+        self._last_stamp_ns = max(now_ns + self._ahead_ns, last_ns)
+        return self._last_stamp_ns
 
     def _give_up(self, error: OSError) -> RecordingError:
         """Keep the file as it is: writing the rest would fail again, at the latest when Python ends."""

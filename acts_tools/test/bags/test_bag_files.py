@@ -135,6 +135,18 @@ def test_stamps_do_not_go_back_with_the_clock(tmp_path: Path, monkeypatch: pytes
         assert [stamp for _, stamp, _ in bag.messages(["/word"])] == [1_000, 3_000, 3_000, 4_000]
 
 
+def test_stamps_go_on_after_the_clock_was_set_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Set back by an hour at 3602 s, adjusted by 1 ms, set back again, and right again.
+    clock_ms = [3_600_000, 3_602_000, 2_000, 2_500, 2_499, 3_500, 1_000, 1_250, 3_700_000, 3_700_500]
+    clock = iter(now_ms * 10**6 for now_ms in clock_ms)
+    monkeypatch.setattr(time, "time_ns", lambda: next(clock))
+    write_bag(tmp_path / "bag", len(clock_ms))
+    with open_bag(tmp_path / "bag") as bag:
+        stamps_ms = [stamp // 10**6 for _, stamp, _ in bag.messages(["/word"])]
+    expected = [3_600_000, 3_602_000, 3_602_000, 3_602_500, 3_602_500, 3_603_500, 3_603_500, 3_603_750]
+    assert stamps_ms == [*expected, 3_700_000, 3_700_500]
+
+
 def test_a_disk_that_is_full_is_reported_once_and_nothing_more_is_tried(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     definition, type_hash = Definitions().describe("std_msgs/msg/String")
