@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 import json
+import shutil
 import time
 from collections.abc import Callable, Iterator
+from datetime import datetime, tzinfo
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +26,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
+import acts_view.recording.recording
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros import qos
 from acts_ros.bags.message_types import Definitions
@@ -249,6 +252,42 @@ class NoFeed:
 
     def close(self) -> None:
         """See `Feed`."""
+
+
+def recording_to(folder: Path) -> Recording:
+    return Recording(folder, 1_000_000, lambda: ("/foot",), lambda _skins, _bag: NoFeed(), lambda *_: None)
+
+
+def test_recordings_that_begin_in_one_second_have_names_of_their_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Stopped(datetime):
+        @classmethod
+        def now(cls, _zone: tzinfo | None = None) -> Stopped:
+            return cls(2026, 11, 1, 2, 30, 0)
+
+    monkeypatch.setattr(acts_view.recording.recording, "datetime", Stopped)
+    recording = recording_to(tmp_path)
+    for _ in range(3):
+        recording.start()
+        recording.stop()
+    second = "touch_2026-11-01_02-30-00"
+    assert sorted(path.name for path in tmp_path.iterdir()) == [second, f"{second}_2", f"{second}_3"]
+
+
+def test_a_recording_whose_folder_is_removed_ends_and_says_so(tmp_path: Path) -> None:
+    folder = tmp_path / "recordings"
+    recording = recording_to(folder)
+    recording.start()
+    shutil.rmtree(folder)
+    recording.step()
+    state = recording.state()
+    assert not state["on"]
+    assert "ended: " in state["note"]
+    assert str(folder) in state["note"]
+    # It is made again.
+    recording.start()
+    recording.close()
 
 
 def test_a_skin_in_the_root_namespace_is_named(tmp_path: Path) -> None:

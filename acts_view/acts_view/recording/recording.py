@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import chain, count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -100,7 +101,6 @@ class Recording:
         skins = self._skins()
         if not skins:
             raise ViewRequestError("there is no skin to record: does its driver run?")
-        name = f"touch_{datetime.now():%Y-%m-%d_%H-%M-%S}"
         try:
             require_rosbags()
             # Imported here, because it is slow to import and few record.
@@ -108,6 +108,7 @@ class Recording:
 
             self._folder.mkdir(parents=True, exist_ok=True)
             self._require_space()
+            name = self._free_name()
             bag = BoundedBag(self._folder / name, self._bytes_max)
         except (RecordingError, OSError) as error:
             raise ViewRequestError(f"nothing is recorded: {error}") from error
@@ -136,7 +137,8 @@ class Recording:
             present.feed.step()
             present.bag.flush()
             self._require_space()
-        except RecordingError as error:
+        # OSError: somebody has removed the folder, or its disk is gone.
+        except (RecordingError, OSError) as error:
             self._end(str(error))
             return
         if present.bag.problem:
@@ -187,6 +189,12 @@ class Recording:
         self._note = f"ended: {reason}; {what}" if reason else what
         self._log("info", f"recording {self._note}")
         return self._note
+
+    def _free_name(self) -> str:
+        """By the clock; with a number where that second has a recording already, as after the clock was set back."""
+        name = f"touch_{datetime.now():%Y-%m-%d_%H-%M-%S}"
+        numbered = (f"{name}_{number}" for number in count(2))
+        return next(one for one in chain([name], numbered) if not (self._folder / one).exists())
 
     def _require_space(self) -> None:
         free_bytes = shutil.disk_usage(self._folder).free
