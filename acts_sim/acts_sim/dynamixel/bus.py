@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from acts_sim.dynamixel.control_table import EEPROM_END, NO_SECONDARY_ID
@@ -75,14 +75,15 @@ class Bus:
         if packet.instruction in (*_SYNC_READS, *_BULK_READS):
             return self._read_many(packet)
         if packet.instruction == Instruction.SYNC_WRITE:
-            self._sync_write(packet.parameters)
+            self._write_all(_sync_writes(packet.parameters))
             return Answer()
         if packet.instruction == Instruction.BULK_WRITE:
-            self._bulk_write(packet.parameters)
+            self._write_all(_bulk_writes(packet.parameters))
             return Answer()
         if packet.motor_id != BROADCAST_ID:
             if packet.instruction == Instruction.WRITE and len(packet.parameters) > 2:
-                self._write_followers(packet.motor_id, _word(packet.parameters, 0), packet.parameters[2:])
+                followers = self._followers().get(packet.motor_id, ())
+                _write_to(followers, _word(packet.parameters, 0), packet.parameters[2:])
             called = self.find(packet.motor_id)
             return Answer() if called is None else _answer_of(called, packet)
         # Of all broadcasts only a ping is answered, by one motor after the other.
@@ -123,33 +124,44 @@ class Bus:
         announced = sum(fast_status_bytes(size) for _, _, size in asked)
         return Answer(encode_fast_status(replies, announced), first.return_delay_s)
 
-    def _sync_write(self, parameters: bytes) -> None:
-        address, size = _word(parameters, 0), _word(parameters, 2)
-        for k in range(4, len(parameters) - size, 1 + size):
-            self._write(parameters[k], address, parameters[k + 1 : k + 1 + size])
-
-    def _bulk_write(self, parameters: bytes) -> None:
-        k = 0
-        while k + 5 <= len(parameters):
-            address, size = _word(parameters, k + 1), _word(parameters, k + 3)
-            self._write(parameters[k], address, parameters[k + 5 : k + 5 + size])
-            k += 5 + size
-
-    def _write(self, motor_id: int, address: int, data: bytes) -> None:
-        """A write that nobody answers."""
-        motor = self.find(motor_id)
-        if motor is not None:
-            motor.write(address, data)
-        self._write_followers(motor_id, address, data)
-
-    def _write_followers(self, motor_id: int, address: int, data: bytes) -> None:
-        """Write to the motors that have this as their secondary ID: only the RAM, and without a reply."""
-        if address < EEPROM_END or motor_id >= NO_SECONDARY_ID:
-            return
-        for motor in self.motors:
-            own_id = motor.motor_id
-            if motor["secondary_id"] == motor_id != own_id and own_id not in self.lost:
+    def _write_all(self, writes: Iterable[tuple[int, int, bytes]]) -> None:
+        """Writes that nobody answers, each of an ID, an address and data."""
+        followers = self._followers()
+        for motor_id, address, data in writes:
+            motor = self.find(motor_id)
+            if motor is not None:
                 motor.write(address, data)
+            _write_to(followers.get(motor_id, ()), address, data)
+
+    def _followers(self) -> dict[int, list[Motor]]:
+        """The connected motors that do what another one is told, by the ID of that: their secondary ID."""
+        followers: dict[int, list[Motor]] = {}
+        for motor in self.motors:
+            secondary_id, own_id = motor["secondary_id"], motor.motor_id
+            if secondary_id < NO_SECONDARY_ID and secondary_id != own_id and own_id not in self.lost:
+                followers.setdefault(secondary_id, []).append(motor)
+        return followers
+
+
+def _sync_writes(parameters: bytes) -> Iterator[tuple[int, int, bytes]]:
+    address, size = _word(parameters, 0), _word(parameters, 2)
+    for k in range(4, len(parameters) - size, 1 + size):
+        yield parameters[k], address, parameters[k + 1 : k + 1 + size]
+
+
+def _bulk_writes(parameters: bytes) -> Iterator[tuple[int, int, bytes]]:
+    k = 0
+    while k + 5 <= len(parameters):
+        address, size = _word(parameters, k + 1), _word(parameters, k + 3)
+        yield parameters[k], address, parameters[k + 5 : k + 5 + size]
+        k += 5 + size
+
+
+def _write_to(followers: Iterable[Motor], address: int, data: bytes) -> None:
+    """Write to followers: only the RAM, and without a reply."""
+    if address >= EEPROM_END:
+        for motor in followers:
+            motor.write(address, data)
 
 
 def _word(data: bytes, at: int) -> int:
