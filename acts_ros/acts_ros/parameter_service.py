@@ -34,7 +34,7 @@ class CheckedParameterService(ParameterService):
     """Those of rclpy, which raise out of the executor, and so end the process, on a value of no known type.
 
     A value of the wrong type is refused in words; rclpy gives the numbers of the types. So is a parameter that the node
-    does not have.
+    does not have, or that cannot be changed.
     """
 
     def __init__(self, node: Node) -> None:
@@ -75,6 +75,9 @@ class CheckedParameterService(ParameterService):
             # rclpy takes one whose name is empty, and keeps whatever it is given; of others it leaves out the name.
             return f"{parameter.name[:_LONGEST_NAME]!r} is no parameter of {node.get_fully_qualified_name()}"
         descriptor = node.describe_parameter(parameter.name)
-        if descriptor.dynamic_typing or descriptor.read_only or given == descriptor.type:
+        if descriptor.read_only:
+            name = node.get_fully_qualified_name()
+            return f"{parameter.name} is read when {name} starts, and cannot be changed later: start it anew with this"
+        if descriptor.dynamic_typing or given == descriptor.type:
             return ""
         return f"{parameter.name}: given was {_NAMES[given]}; allowed is {_NAMES[descriptor.type]}"

@@ -207,3 +207,6 @@ def test_a_value_of_no_known_type_or_for_no_parameter_is_refused_and_the_node_go
         assert not result.successful
         assert result.reason == f"{unknown[:64]!r} is no parameter of /plate/example"
     assert not node.has_parameter("")
+    fixed = ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE_ARRAY, double_array_value=[3.0, 4.0]), "home_rad")
+    assert not fixed.successful
+    assert fixed.reason.startswith("home_rad is read when /plate/example starts, and cannot be changed later: start it")
