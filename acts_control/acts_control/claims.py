@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
 import socket
 import struct
@@ -16,6 +17,8 @@ from acts_core.runtime import process_name
 
 _CREDENTIALS = struct.Struct("3i")
 _UNKNOWN = 0
+# Of Linux (unix(7)), with the zero byte of an abstract name.
+_ADDRESS_BYTES = 108
 
 # What this process gave up may stay taken for a moment: a program that another thread is just starting has copies of
 # all descriptors until it begins.
@@ -47,7 +50,7 @@ class MachineClaim:
     """
 
     def __init__(self, kind: str, name: str) -> None:
-        address = b"\0acts/" + f"{kind}/{name}".encode()
+        address = _address(f"acts/{kind}/{name}".encode())
         end_s = time.monotonic() + _COPIES_S
         while True:
             self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -67,6 +70,14 @@ class MachineClaim:
     def close(self) -> None:
         """Give it up. May be called again."""
         self._socket.close()
+
+
+def _address(name: bytes) -> bytes:
+    """The socket's name; of a thing with a longer name than a socket may have, a digest stands for the end of it."""
+    if len(name) >= _ADDRESS_BYTES:
+        digest = hashlib.sha256(name).hexdigest().encode()
+        name = name[: _ADDRESS_BYTES - 1 - len(digest)] + digest
+    return b"\0" + name
 
 
 def _holder(address: bytes) -> int:

@@ -59,7 +59,7 @@ class PortClaim:
         except ClaimedError as error:
             raise HandError(held(self._port, str(error))) from error
         except OSError as error:
-            raise HandError(f"{self._port} cannot be claimed ({error.strerror})") from error
+            raise HandError(f"{self._port} cannot be claimed ({error.strerror or error})") from error
 
 
 def _name_of(path: str) -> str | None:

@@ -74,6 +74,18 @@ def test_a_terminal_that_is_written_to_and_opened_again_stays_the_same(tmp_path:
         PortClaim(device).take()
 
 
+def test_a_port_of_a_long_name_is_claimed_and_is_not_that_of_another_with_the_same_beginning(tmp_path: Path) -> None:
+    deep = tmp_path / "a_folder_for_the_runs_of_a_day" / ("x" * 100)
+    first, second = (PortClaim(str(deep / name)) for name in ("left", "right"))
+    first.take()
+    second.take()
+    with pytest.raises(HandError, match="is held by"):
+        PortClaim(str(deep / "left")).take()
+    first.close()
+    PortClaim(str(deep / "left")).take()
+    second.close()
+
+
 def test_a_port_that_is_not_there_is_claimed_by_its_name(tmp_path: Path) -> None:
     (tmp_path / "hand").symlink_to("/dev/pts/4000000")
     claim = PortClaim(str(tmp_path / "hand"))
