@@ -49,8 +49,12 @@ def port_shown(port: Any) -> str:
 
 def path_shown(path: str) -> str:
     """A path, and where it leads to if it is a link."""
-    target = os.path.realpath(path)
-    return f"{path} (a link to {target})" if Path(path).is_symlink() else path
+    try:
+        is_link = Path(path).is_symlink()
+    except OSError:
+        # In a folder that is not ours to look into, for instance.
+        is_link = False
+    return f"{path} (a link to {os.path.realpath(path)})" if is_link else path
 
 
 def not_opened(path: str, number: int | None, reason: str, *, what: str, present: str, rule: str = "") -> str:
@@ -101,6 +105,8 @@ def _how_to_be_permitted(path: str, rule: str) -> str:
         group = grp.getgrgid(status.st_gid).gr_name
         user = pwd.getpwuid(os.geteuid()).pw_name
         members = grp.getgrgid(status.st_gid).gr_mem
+    except PermissionError:
+        return "a folder on the way to it is somebody else's: start this program as that user, or name another port"
     except (OSError, KeyError):
         # What most machines have; the port may be gone by now.
         status, group, user, members = None, "dialout", "", []

@@ -20,12 +20,12 @@ def is_stale_link(path: str) -> bool:
     whose input would be taken.
     """
     target = os.path.realpath(path)
-    if not Path(path).is_symlink() or not target.startswith("/dev/pts/"):
-        return False
     try:
+        if not Path(path).is_symlink() or not target.startswith("/dev/pts/"):
+            return False
         return Path(target).stat().st_ctime_ns > Path(path).lstat().st_mtime_ns + _LINK_TOLERANCE_NS
     except OSError:
-        # Gone by now; opening tells.
+        # Gone by now, or in a folder that is not ours to look into; opening tells.
         return False
 
 

@@ -344,6 +344,11 @@ def test_a_link_older_than_its_terminal_is_stale(board: PtyBoard, tmp_path: Path
         open_port(str(link), 115200)
 
 
+def test_a_port_whose_name_no_file_can_have_is_told() -> None:
+    with pytest.raises(PortError, match=r"port /tmp/x+ cannot be opened: .*File name too long"):
+        open_port(f"/tmp/{'x' * 300}", 115200)
+
+
 def test_a_plain_file_is_no_port(tmp_path: Path) -> None:
     path = tmp_path / "file"
     path.write_text("")

@@ -103,8 +103,10 @@ class BusPort:
                 os.close(descriptor)
         self._master = self._slave = -1
         self._answers.clear()
-        if self._link is not None and self._link.is_symlink() and str(self._link.readlink()) == self.path:
-            self._link.unlink()
+        # A link that cannot be looked at was not made here.
+        with suppress(OSError):
+            if self._link is not None and self._link.is_symlink() and str(self._link.readlink()) == self.path:
+                self._link.unlink()
 
     def close(self) -> None:
         """Close the port and remove the link."""

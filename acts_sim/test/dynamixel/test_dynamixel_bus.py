@@ -17,6 +17,9 @@ from dynamixel_sdk import COMM_SUCCESS, GroupBulkRead, GroupSyncRead, GroupSyncW
 from motor_bus import IDS, MotorBus
 from serial import SerialException
 
+from acts_core.errors import RobotError
+from acts_sim.dynamixel import Bus, BusPort
+
 QUIET_S = 0.3
 """So long a bus that is to end waits for a client."""
 
@@ -127,6 +130,12 @@ def test_a_lost_motor_is_silent_and_takes_those_behind_it_along(rig: Rig) -> Non
 def test_a_command_that_makes_no_sense_is_answered_so(rig: Rig) -> None:
     assert rig.command("explode").startswith("error: unknown 'explode'")
     assert rig.command("lose 99").startswith("error: no motor '99'")
+
+
+def test_a_link_that_cannot_be_is_refused_in_words() -> None:
+    link = Path("/tmp") / ("x" * 300)
+    with pytest.raises(RobotError, match=r"the link to the port cannot be made \(File name too long\)"):
+        BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
 
 
 def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> None:

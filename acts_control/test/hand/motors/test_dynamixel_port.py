@@ -46,6 +46,11 @@ def test_a_link_that_a_dead_hand_has_left_is_told(bus: Bus, tmp_path: Path) -> N
         DynamixelPort(DynamixelConfig(port="/dev/ptmx")).open()
 
 
+def test_a_port_whose_name_no_file_can_have_is_told() -> None:
+    with pytest.raises(HandError, match=r"port /tmp/x+ cannot be opened: .*File name too long"):
+        DynamixelPort(DynamixelConfig(port=f"/tmp/{'x' * 300}")).open()
+
+
 def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
     bus: Bus, monkeypatch: pytest.MonkeyPatch
 ) -> None:
