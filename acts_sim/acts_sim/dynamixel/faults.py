@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import Protocol
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError
 from acts_sim.dynamixel.bus import Bus
 from acts_sim.dynamixel.motor import HardwareError, Motor
 from acts_sim.dynamixel.port import BusPort
@@ -49,19 +49,18 @@ class Faults:
     def answer(self, line: str) -> str:
         """Execute a line and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
         word, _, rest = line.partition(" ")
-        if word == "unplug":
-            self._port.unplug()
-            return "ok"
-        if word == "plug_in":
-            self._port.plug_in()
-            return "ok"
         if word == "state":
             return json.dumps({"connected": self._port.connected, "motors": [state(one) for one in self._bus.motors]})
-        if word not in MOTOR_FAULTS:
-            return f"error: unknown {word!r}; known are {_KNOWN}"
         try:
-            do_to_motor(self._bus, self._joints, word, rest.strip())
-        except SettingsError as error:
+            if word == "unplug":
+                self._port.unplug()
+            elif word == "plug_in":
+                self._port.plug_in()
+            elif word in MOTOR_FAULTS:
+                do_to_motor(self._bus, self._joints, word, rest.strip())
+            else:
+                return f"error: unknown {word!r}; known are {_KNOWN}"
+        except ActsError as error:
             return f"error: {error}"
         return "ok"
 

@@ -156,6 +156,23 @@ def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> N
     assert not rig.control.exists()
 
 
+def test_a_cable_whose_place_is_taken_is_told_and_can_be_plugged_in_later(tmp_path: Path) -> None:
+    rig = Rig(tmp_path, "--motors", "1")
+    try:
+        assert rig.command("unplug") == "ok"
+        rig.link.write_text("of somebody else")
+        assert rig.command("plug_in").startswith(
+            f"error: {rig.link}: the link to the port cannot be made (File exists)"
+        )
+        rig.link.unlink()
+        assert rig.command("plug_in") == "ok"
+        rig.port.closePort()
+        rig.port = rig.open()
+        assert rig.packets.ping(rig.port, 0)[1] == COMM_SUCCESS
+    finally:
+        rig.close()
+
+
 def answers_for(rig: Rig, duration_s: float, answered_s: float) -> bool:
     """Whether it answers for so long; False where this machine stood still: the bus took its client for gone.
 

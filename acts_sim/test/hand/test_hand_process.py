@@ -179,6 +179,14 @@ sys.exit(Program("acts_sim.hand.process.main")())
 """
 
 
+def test_a_cable_whose_place_is_taken_does_not_end_the_world(rig: Rig) -> None:
+    assert rig.command("unplug") == "ok"
+    rig.link.mkdir()
+    assert rig.command("plug_in").startswith(f"error: {rig.link}: the link to the port cannot be made")
+    rig.link.rmdir()
+    assert rig.command("plug_in") == "ok"
+
+
 @pytest.mark.parametrize(("one", "other"), [("--field-ring", "--truth-ring"), ("--link", "--control")])
 def test_one_path_for_two_files_is_refused(capsys: pytest.CaptureFixture[str], one: str, other: str) -> None:
     with pytest.raises(SystemExit) as ended:

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
@@ -95,11 +95,7 @@ _OF_THE_PROCESS = ("unplug", "plug_in", "state")
 
 def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
     """Execute a line of the control socket and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
-    if line == "unplug":
-        port.unplug()
-    elif line == "plug_in":
-        port.plug_in()
-    elif line == "state":
+    if line == "state":
         return json.dumps(
             {
                 "connected": port.connected,
@@ -108,11 +104,15 @@ def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
                 "truth": world.truth.as_dict(),
             }
         )
-    else:
-        try:
+    try:
+        if line == "unplug":
+            port.unplug()
+        elif line == "plug_in":
+            port.plug_in()
+        else:
             carry_out(world, line, _OF_THE_PROCESS)
-        except SettingsError as error:
-            return f"error: {error}"
+    except ActsError as error:
+        return f"error: {error}"
     return "ok"
 
 
