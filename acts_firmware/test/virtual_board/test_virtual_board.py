@@ -279,3 +279,9 @@ def test_a_file_in_place_of_the_link_is_kept(tmp_path: Path) -> None:
     assert result.returncode == 2
     assert "something else than a symbolic link" in result.stderr
     assert path.read_text() == "mine"
+
+
+def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "board").symlink_to("notes.txt")
+    assert "board: a link to notes.txt is there; remove it" in refusal(tmp_path / "board", 2)
+    assert (tmp_path / "board").readlink() == Path("notes.txt")

@@ -232,6 +232,9 @@ def test_recordings_that_do_not_fit_are_refused(tmp_path: Path, array: NDArray, 
 def test_broken_recordings_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "frames.npy"
     assert "cannot be read" in refusal(path)
+    os.mkfifo(path)
+    assert "cannot be mapped" in refusal(path)
+    path.unlink()
     path.write_bytes(b"")
     assert "empty" in refusal(path)
     path.write_bytes(b"not a recording at all")

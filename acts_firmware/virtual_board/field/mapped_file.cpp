@@ -15,7 +15,8 @@
 namespace acts {
 
 MappedFile::MappedFile(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Not waiting: of a pipe, open() would wait for its writer.
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
     throw std::runtime_error(path + ": cannot be read (" + std::strerror(errno) + ")");
   }

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kTerminals = "/dev/pts/";
+
 [[noreturn]] void fail(const std::string& what) {
   throw std::runtime_error(what + " (" + std::strerror(errno) + ")");
 }
@@ -87,6 +89,11 @@ void PseudoTerminal::make_link() const {
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_symlink(status)) {
     throw OptionError("--link " + link_ + ": something else than a symbolic link is there; remove it");
+  }
+  // A link of a board that was killed leads to a pseudo-terminal; any other is somebody's.
+  const std::string target = fs::is_symlink(status) ? fs::read_symlink(path, error).string() : kTerminals;
+  if (target.rfind(kTerminals, 0) != 0) {
+    throw OptionError("--link " + link_ + ": a link to " + target + " is there; remove it");
   }
   const fs::path fresh = link_ + ".new";
   fs::remove(fresh, error);

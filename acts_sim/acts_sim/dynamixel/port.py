@@ -44,7 +44,7 @@ class BusPort:
     step_s : float
         Length of a step [s].
     link : Path or None
-        Symbolic link to the port; a stale one is replaced.
+        Symbolic link to the port; one to another pseudo-terminal is replaced.
     baud : int
         Baud rate of the simulated wire [bit/s]; with 0 packets take no time.
 
@@ -89,7 +89,8 @@ class BusPort:
         if self._link is not None:
             try:
                 self._link.parent.mkdir(parents=True, exist_ok=True)
-                if self._link.is_symlink():
+                # That of a bus that was killed leads to a pseudo-terminal; any other is somebody's.
+                if self._link.is_symlink() and str(self._link.readlink()).startswith("/dev/pts/"):
                     self._link.unlink()
                 self._link.symlink_to(self.path)
             except OSError as error:

@@ -138,6 +138,19 @@ def test_a_link_that_cannot_be_is_refused_in_words() -> None:
         BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
 
 
+def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
+    link = tmp_path / "hand"
+    link.symlink_to("notes.txt")
+    with pytest.raises(RobotError, match=r"the link to the port cannot be made \(File exists\)"):
+        BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
+    assert link.readlink() == Path("notes.txt")
+    link.unlink()
+    link.symlink_to("/dev/pts/4000000")
+    port = BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
+    assert str(link.readlink()) == port.path
+    port.close()
+
+
 def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> None:
     rig = Rig(tmp_path, "--motors", "2")
     try:
