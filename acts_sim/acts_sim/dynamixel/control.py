@@ -30,7 +30,7 @@ class ControlSocket:
     Raises
     ------
     RobotError
-        When the socket cannot be made.
+        When the socket cannot be made, or another program listens there.
     """
 
     def __init__(self, path: Path, answer: Callable[[str], str]) -> None:
@@ -41,12 +41,16 @@ class ControlSocket:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             if path.is_socket():
+                _require_stale(path)
                 path.unlink()
             self._listener.bind(str(path))
             path.chmod(0o600)
         except OSError as error:
             self._listener.close()
             raise RobotError(f"{path}: the control socket cannot be made ({error}); give another path") from error
+        except RobotError:
+            self._listener.close()
+            raise
         self._listener.listen()
         self._listener.setblocking(False)
 
@@ -89,3 +93,16 @@ class ControlSocket:
         if not data:
             client.close()
             del self._clients[descriptor]
+
+
+def _require_stale(path: Path) -> None:
+    """Refuse a socket on which a program listens: it would hear nothing any more."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as question:
+        question.setblocking(False)
+        try:
+            question.connect(str(path))
+        except ConnectionRefusedError:
+            return
+        except BlockingIOError:
+            pass  # it listens, and has much to do
+    raise RobotError(f"{path}: another program listens there; end it, or give another path")

@@ -6,7 +6,9 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
+import socket
 import termios
 import time
 from collections.abc import Iterator
@@ -18,7 +20,7 @@ from motor_bus import IDS, MotorBus
 from serial import SerialException
 
 from acts_core.errors import RobotError
-from acts_sim.dynamixel import Bus, BusPort
+from acts_sim.dynamixel import Bus, BusPort, ControlSocket
 
 QUIET_S = 0.3
 """So long a bus that is to end waits for a client."""
@@ -136,6 +138,19 @@ def test_a_link_that_cannot_be_is_refused_in_words() -> None:
     link = Path("/tmp") / ("x" * 300)
     with pytest.raises(RobotError, match=r"the link to the port cannot be made \(File name too long\)"):
         BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
+
+
+def test_a_control_socket_in_use_is_left_to_its_program_and_a_stale_one_is_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "control"
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as other:
+        other.bind(str(path))
+        other.listen()
+        before = path.stat()
+        with pytest.raises(RobotError, match="control: another program listens there; end it, or give another path"):
+            ControlSocket(path, lambda line: line)
+        assert os.path.samestat(path.stat(), before)
+    ControlSocket(path, lambda line: line).close()
+    assert not path.exists()
 
 
 def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
