@@ -107,7 +107,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
             port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols
         )
         name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
-        record_dir = Path(settings.record_dir) if arguments.control else None
+        record_dir = settings.record_folder if arguments.control else None
         source = BoardSource(
             name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir
         )

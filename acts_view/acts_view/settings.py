@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from acts_core.errors import SettingsError
+from acts_core.files import path_of
 from acts_core.names import ALLOWED, is_full_name
 from acts_core.settings import setting, validate
 
@@ -43,12 +45,18 @@ class ViewSettings:
             raise SettingsError("host is empty: needed is an address or a name, such as 127.0.0.1 or 0.0.0.0")
         if not self.record_dir:
             raise SettingsError("record_dir is empty: needed is a folder, such as recordings")
+        path_of(self.record_dir, error=SettingsError)
         for name in self.namespaces:
             if not is_full_name(name):
                 raise SettingsError(
                     f"skins: {name[1:]!r} is no namespace: allowed are {ALLOWED}, parts with / between, and a comma "
                     "between skins"
                 )
+
+    @property
+    def record_folder(self) -> Path:
+        """What `record_dir` names."""
+        return path_of(self.record_dir, error=SettingsError)
 
     @property
     def namespaces(self) -> tuple[str, ...]:

@@ -12,7 +12,6 @@ import threading
 import time
 import traceback
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -81,7 +80,7 @@ class ViewNode(PollingNode):
         self._only: dict[str, OnlyPublishers] = {}
         self._pages = 0
         self._recording = Recording(
-            Path(settings.record_dir),
+            settings.record_folder,
             int(settings.record_max_mb * 1e6),
             lambda: tuple(self._names),
             self._feed,

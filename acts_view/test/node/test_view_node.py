@@ -10,6 +10,7 @@ import time
 import tracemalloc
 from array import array
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -274,6 +275,14 @@ def test_a_skin_that_cannot_be_is_refused(change: dict[str, Any]) -> None:
 def test_only_namespaces_are_taken_as_skins(skins: str) -> None:
     with pytest.raises(SettingsError, match="is no namespace"):
         ViewSettings(skins=skins)
+
+
+def test_recordings_may_be_meant_for_the_home_folder(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", "/home/ann")
+    assert ViewSettings(record_dir="~/recordings").record_folder == Path("/home/ann/recordings")
+    assert ViewSettings().record_folder == Path("recordings")
+    with pytest.raises(SettingsError, match="~no_such_user/x: "):
+        ViewSettings(record_dir="~no_such_user/x")
 
 
 def contact_subscribers(bench: Bench) -> int:
