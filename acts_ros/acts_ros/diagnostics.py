@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
@@ -64,21 +66,56 @@ class DiagnosticsReporter:
         problem = self._only.problem()
         if problem:
             level, message = max(level, WARN), f"{message}; {problem}" if level else problem
-        status = DiagnosticStatus(
-            level=bytes([level]),
-            name=self._node.get_fully_qualified_name().lstrip("/"),
-            message=message,
-            hardware_id=self.hardware_id,
-            values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
-        )
-        array = DiagnosticArray(status=[status])
-        array.header.stamp = self._node.get_clock().now().to_msg()
-        self._publisher.publish(array)
+        self._publisher.publish(_array(self._node, self.hardware_id, (level, message, values)))
 
     def destroy(self) -> None:
         """Stop reporting."""
         self._node.destroy_timer(self._timer)
         self._node.destroy_publisher(self._publisher)
+
+
+@contextmanager
+def reporting(node: Node, hardware_id: str, message: str, *, period_s: float = 1.0) -> Iterator[None]:
+    """Publish one warning again and again, on a thread of its own, while the block runs: the node cannot spin yet.
+
+    The first one is published after `period_s`, so that a start that takes no longer warns of nothing.
+
+    Parameters
+    ----------
+    node, hardware_id
+        As of `DiagnosticsReporter`.
+    message : str
+        What takes so long.
+    """
+    publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    is_over = threading.Event()
+
+    def report() -> None:
+        while not is_over.wait(period_s):
+            publisher.publish(_array(node, hardware_id, (WARN, message, {})))
+
+    thread = threading.Thread(target=report, name="acts_reporting", daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        is_over.set()
+        thread.join()
+        node.destroy_publisher(publisher)
+
+
+def _array(node: Node, hardware_id: str, report: Report) -> DiagnosticArray:
+    level, message, values = report
+    status = DiagnosticStatus(
+        level=bytes([level]),
+        name=node.get_fully_qualified_name().lstrip("/"),
+        message=message,
+        hardware_id=hardware_id,
+        values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
+    )
+    array = DiagnosticArray(status=[status])
+    array.header.stamp = node.get_clock().now().to_msg()
+    return array
 
 
 def _text(value: object) -> str:

@@ -3,6 +3,8 @@
 
 """A diagnostic status over DDS; ROS_DOMAIN_ID 12."""
 
+import time
+
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
@@ -10,7 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
-from acts_ros.diagnostics import WARN, DiagnosticsReporter
+from acts_ros.diagnostics import WARN, DiagnosticsReporter, reporting
 
 
 def test_the_report_arrives_with_name_level_and_values() -> None:
@@ -34,4 +36,31 @@ def test_the_report_arrives_with_name_level_and_values() -> None:
     assert {value.key: value.value for value in status.values} == {"lost": "3", "rate_hz": "999.5"}
     executor.shutdown()
     node.destroy_node()
+    rclpy.try_shutdown(context=context)
+
+
+def test_a_node_that_cannot_spin_yet_is_heard_until_it_can() -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=12)
+    node, peer = (Node(name, namespace="/plate", context=context) for name in ("reconstruction", "peer"))
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(peer)
+    received: list[DiagnosticArray] = []
+    peer.create_subscription(DiagnosticArray, "/diagnostics", received.append, 10)
+    deadline_s = time.monotonic() + 20
+    with reporting(node, "/plate/samples", "compiling", period_s=0.05):
+        while len(received) < 2:
+            assert time.monotonic() < deadline_s, "timed out"
+            executor.spin_once(timeout_sec=0.05)
+    for message in received:
+        (status,) = message.status
+        assert status.name == "plate/reconstruction"
+        assert status.hardware_id == "/plate/samples"
+        assert (status.level, status.message) == (b"\x01", "compiling")
+    while node.count_publishers("/diagnostics"):
+        assert time.monotonic() < deadline_s, "it goes on"
+        executor.spin_once(timeout_sec=0.05)
+    executor.shutdown()
+    node.destroy_node()
+    peer.destroy_node()
     rclpy.try_shutdown(context=context)

@@ -42,13 +42,14 @@ from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
-from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report, reporting
 from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
 
+_COMPILING = "compiling: this takes long the first time on a machine, and with another kind of skin"
 _SUBSCRIBERS_PERIOD_S = 0.2
 # Of each kind, so that one that comes often hides no other.
 _REJECTED_TOLD_HZ = 0.2
@@ -88,9 +89,12 @@ class ReconstructionNode(Node):
         self._settings: ReconstructionConfig = declare(self, ReconstructionSettings, self._change)
         if self._settings.unused:
             self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
-        self.get_logger().info("compiling (the first time on a machine takes some seconds)")
-        self._pipeline = FramePipeline(self._settings, self._forget)
-        self._recovery = self._pipeline.recovery
+        self.get_logger().info(_COMPILING)
+        samples = self.resolve_topic_name("samples")
+        with reporting(self, samples, _COMPILING):
+            self._pipeline = FramePipeline(self._settings, self._forget)
+            self._recovery = self._pipeline.recovery
+            self._parts = self._make_parts()
         self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
         self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
         # Filled anew for every frame: making messages costs more than sending them.
@@ -98,7 +102,6 @@ class ReconstructionNode(Node):
         self._cop = PointStamped()
         self._view_limit = RateLimit(self._settings.image_rate_hz)
         self._viewed: list[str] = []
-        self._parts = self._make_parts()
 
         self._frames = 0
         self._untold = 0
@@ -114,9 +117,7 @@ class ReconstructionNode(Node):
         steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
         only = ["contact", "contacts", "regions"]
         only += (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
-        self._diagnostics = DiagnosticsReporter(
-            self, self.resolve_topic_name("samples"), self._report, only_publishers=only
-        )
+        self._diagnostics = DiagnosticsReporter(self, samples, self._report, only_publishers=only)
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         # Messages that are recovered after all that the executor has to do, with the times of their reception [ns].

@@ -7,14 +7,16 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from contact_reference import find_contact
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.parameter import Parameter
-from recon_bench import Bench, publisher_of, timed
+from recon_bench import Bench, Peers, publisher_of, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
 
@@ -22,7 +24,9 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import Contact, ContactSeries
+from acts_recon.frame_pipeline import FramePipeline
 from acts_recon.fusion import FusionEstimator
+from acts_recon.nodes import reconstruction_node
 from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.sparse import Dictionary, Reconstructor
@@ -44,6 +48,24 @@ def test_rates_of_images_change_while_it_runs(make_bench: Callable[..., Bench]) 
     assert bench.node._view_limit.due(0.201)
     for refused in (Parameter("image_rate_hz", value=0.0), Parameter("rows", value=16)):
         assert not bench.node.set_parameters([refused])[0].successful
+
+
+def test_diagnostics_say_that_it_compiles_while_it_does(
+    make_peers: Callable[..., Peers], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    peers = make_peers(191)
+    told: list[DiagnosticArray] = []
+    peers.peer.create_subscription(DiagnosticArray, "/diagnostics", told.append, 10)
+
+    def compiles_for_long(*arguments: Any) -> FramePipeline:
+        peers.until(lambda: bool(told))
+        return FramePipeline(*arguments)
+
+    monkeypatch.setattr(reconstruction_node, "FramePipeline", compiles_for_long)
+    peers.add(reconstruction_node.ReconstructionNode(cli_args=[], context=peers.context, namespace="/plate"))
+    (status,) = told[0].status
+    assert status.name == "plate/reconstruction"
+    assert status.message.startswith("compiling")
 
 
 def test_contact_cop_and_images_are_those_of_the_samples(
