@@ -184,6 +184,27 @@ def test_libraries_from_recordings_and_from_presses(grasps: Path, tmp_path: Path
     assert load_object_library(path).sha256 == loaded.sha256
 
 
+def test_a_library_of_files_that_are_named_after_their_objects(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in ("cup_1.npz", "cup_2.npz", "can.npz")]
+    for number, path in enumerate(paths):
+        image = np.zeros((3, 8, 8), dtype=np.uint16)
+        image[1, number, 0] = 300
+        np.savez(path, image=image)  # as acts export writes it
+    made = tmp_path / "objects.npz"
+    assert make_library("-o", made, "--files", *paths) == 0
+    loaded = load_object_library(made)
+    assert loaded.names == ("can", "cup")
+    shown = {
+        int(np.argmax(column)): loaded.names[of] for of, column in zip(loaded.classes, loaded.columns.T, strict=True)
+    }
+    assert shown == {0: "cup", 8: "cup", 16: "can"}
+    for path in paths:
+        assert f"{path.name} (sha256 " in loaded.provenance
+    np.savez(paths[2], image=np.full((1, 4, 4), 300, dtype=np.uint16))
+    with pytest.raises(RecordingError, match=r"arrays of several sizes .*cup_1.npz 8 x 8.*can.npz 4 x 4"):
+        make_library("-o", made, "--files", *paths)
+
+
 def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_library(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
