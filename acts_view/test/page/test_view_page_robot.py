@@ -67,6 +67,12 @@ def test_a_hand_has_its_own_shape_and_its_regions(play: Callable[..., Player], o
     assert corner == [0, 0, 0, 0]
 
 
+def test_patches_without_a_hand_are_not_called_one(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play(change=lambda frame: replace(frame, hand={})))
+    page.wait_for_selector(".regions li")
+    expect(page.locator(".regions h3").first).to_have_text("Patches")
+
+
 def test_nothing_is_minus_zero(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     page = open_page(play(change=centred))
     expect(page.locator("[data-number=x]")).to_have_text("0.0")

@@ -1,7 +1,7 @@
 // Copyright 2026 ACTS contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Of a hand: what each region feels, what the hand does, and the angles of its joints.
+// What each patch of a skin feels, and of a hand also what it does, and the angles of its joints.
 
 import { rounded, setText } from "../words.js";
 
@@ -13,7 +13,7 @@ const JOINT_STAYS_MS = 2000;
 export class Regions {
   constructor(element) {
     this.element = element;
-    element.innerHTML = `<h3>Hand <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints [°]</h3><dl class="joints"></dl><p class="note"></p>`;
+    element.innerHTML = `<h3><span class="what"></span> <span class="state"></span></h3><p class="reason"></p><ul class="patches"></ul><h3 class="joints-title">Joints [°]</h3><dl class="joints"></dl><p class="note"></p>`;
     this.rows = new Map();
     this.joints = new Map();
     this.told = new Map();
@@ -31,6 +31,7 @@ export class Regions {
     setText(this.element.querySelector(".state"), [hand.state, ...(hand.active ?? [])].filter(Boolean).join(" · "));
     setText(this.element.querySelector(".reason"), hand.reason ?? "");
     this.#showJoints();
+    setText(this.element.querySelector(".what"), hand.state || this.joints.size ? "Hand" : "Patches");
     this.element.querySelector(".joints-title").hidden = !this.joints.size;
     const events = (hand.events ?? []).filter(([, count]) => count).map(([name, count]) => `${name} ${count} ×`);
     setText(this.element.querySelector(".note"), events.length ? `Reflexes so far: ${events.join(", ")}` : "");
