@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.skin import layout
 from acts_core.words import counted
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
 from acts_tools.bags.messages import is_in_counts, messages
 from acts_tools.export.frames import Seen, contacts_in, recorded_frames, recovered_frames
-from acts_tools.export.tracks import Joints, Track, Values, contact_track, contacts_track, joint_track
+from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, contact_track, contacts_track, joint_track
 
 _IMAGE = "sensor_msgs/msg/Image"
 _SAMPLES = "acts_msgs/msg/TactileSamples"
@@ -33,6 +34,9 @@ NO_JOINTS = "none"
 
 # Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
 _PAUSE_MAX_S = 60.0
+
+# An area is a whole number of taxels, at most 4096, in single precision.
+_WHOLE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -230,7 +234,8 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         }
         left_out = {topic: track.backward for topic, track in tracks.items() if track.backward}
         contact, contacts, _ = tracks.values()
-        unlike: tuple[str, ...] = ()
+        other_taxels = "" if contacts.stamps_ns else _other_taxels(contact, f"{skin}/contact", choice.layout)
+        unlike: tuple[str, ...] = (other_taxels,) if other_taxels else ()
         if types.get(images) == _IMAGE and is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
             if types.get(samples) == _SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
@@ -244,10 +249,12 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
                     )
                 else:
                     contact = contact if contact.stamps_ns else found[0]
-                    contacts = contacts if contacts.stamps_ns else found[1]
+                    contacts = contacts if contacts.stamps_ns or other_taxels else found[1]
                     left_out |= {samples: found[0].backward} if found[0].backward else {}
         else:
             frames = recovered_frames(bag, path, samples, baseline, choice.layout)
+            if other_taxels:
+                frames = (replace(seen, contacts=None) for seen in frames)
         yield Recording(
             name=str(path),
             skin=skin,
@@ -292,6 +299,24 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
             f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}{f'; {bag.note}' if bag.note else ''}"
         )
     return found[0]
+
+
+def _other_taxels(contact: Track[Values], topic: str, name: str) -> str:
+    """That the recorded contact is of taxels of another size than the layout's, so that what is found is misplaced."""
+    sizes_m = {(patch.pitch_m, patch.row_pitch_m) for patch in layout(name).patches}
+    areas_m2 = np.array(contact.values).reshape(-1, len(CONTACT_COLUMNS))[:, CONTACT_COLUMNS.index("area_m2")]
+    areas_m2 = areas_m2[areas_m2 > 0]
+    if len(sizes_m) != 1 or not areas_m2.size:
+        return ""
+    ((pitch_m, row_pitch_m),) = sizes_m
+    taxels = areas_m2 / (pitch_m * row_pitch_m)
+    if np.mean(np.abs(taxels - np.rint(taxels)) < _WHOLE) > 0.5:
+        return ""
+    return (
+        f"contacts one by one were not recorded, and are left out: the areas of {topic} are not of taxels of "
+        f"{1e3 * pitch_m:g} x {1e3 * row_pitch_m:g} mm, those of the layout {name}; export it with --layout NAME, as "
+        "the driver had it, or with a layout file that has the pitch"
+    )
 
 
 def _layout_hint(bag: Any, path: Path, skin: str, layout: str) -> str:

@@ -311,3 +311,24 @@ def test_contacts_of_another_layout_than_that_of_the_images_are_left_out_and_tol
         assert [row.contact is None and row.contacts is None for row in recording.rows()] == [True] * 3
         (note,) = recording.notes()
     assert "with the layout square /plate/samples does not give the images of /plate/image_raw" in note
+
+
+@pytest.mark.parametrize("has_images", [False, True])
+def test_contacts_on_taxels_of_another_size_are_left_out_and_told(has_images: bool, tmp_path: Path) -> None:
+    """As of a skin with a pitch of its own, whose layout is not given."""
+    file = tmp_path / "fine.yaml"
+    file.write_text("pitch_m: 0.003\npatches: {pad: {wires: {down: rows, across: cols}}}\n")
+    messages: list[tuple[str, Any]] = []
+    for n in range(3):
+        pressing = contact(n, 2.0)
+        pressing.area = float(np.float32((n + 9) * 0.003**2))
+        messages += [("/plate/samples", samples(n, pressed(0))), ("/plate/contact", pressing)]
+        messages += [("/plate/image_raw", image(n, pressed(0)))] if has_images else []
+    path = write_bag(tmp_path / "b", *messages)
+    with open_recording(path, Choice(layout=str(file))) as recording:
+        assert [row.contacts is not None and len(row.contacts) for row in recording.rows()] == [1, 1, 1]
+        assert recording.notes() == []
+    with open_recording(path, Choice()) as recording:
+        assert [row.contacts is None for row in recording.rows()] == [True] * 3
+        (note,) = recording.notes()
+    assert "not of taxels of 4.375 x 4.375 mm, those of the layout square; export it with --layout NAME" in note
