@@ -65,9 +65,10 @@ test compares them.
 CHANGE = {Changeable.AT_START: "", Changeable.UNCONFIGURED: "unconfigured", Changeable.RUNNING: "running"}
 
 CHANGE_IN_WORDS = """\
-The column *change* says when a parameter can be set with `ros2 param set`: *running*: at any time, in force from the
-next step or frame on; *unconfigured*: while the node's life cycle is in that state, before it is configured or after
-cleanup; empty: only at the node's start. Any other change is refused with the reason, and nothing changes then.
+The column *change* says when a parameter can be set with `acts param` or `ros2 param set`: *running*: at any time, in
+force from the next step or frame on; *unconfigured*: while the node's life cycle is in that state, before it is
+configured or after cleanup; empty: only at the node's start. Any other change is refused with the reason, and nothing
+changes then.
 """
 
 

@@ -27,6 +27,7 @@ COMMANDS = {
     "echo": ("acts_tools.echo.command", "print the messages of a topic"),
     "listen": ("acts_tools.listen.command", "measure loss and delay of a topic on this machine"),
     "driver": ("acts_tools.driver.command", "control a running driver: query, calibrate, tare, set"),
+    "param": ("acts_tools.parameters.command", "show and set parameters of a running node"),
     "diagnostics": ("acts_tools.diagnostics.command", "print the diagnostics of the running nodes"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "doctor": ("acts_tools.doctor.command", "check this machine, and say how to correct what is wrong"),

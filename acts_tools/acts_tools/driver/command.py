@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.files import path_of
@@ -16,12 +15,8 @@ from acts_core.names import full_name
 from acts_core.settings import from_text, is_given
 from acts_core.skin import LAYOUTS, layout_path
 
-if TYPE_CHECKING:
-    from rclpy.client import Client
-
 _FOUND_S = 10.0
 _ANSWER_S = 30.0
-_LOOK_S = 0.5
 _SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
 
 _EPILOG = """\
@@ -128,24 +123,9 @@ _ABSOLUTE = {"model": _absolute_model, "layout": _absolute_layout}
 def _call(kind: Any, name: str, request: Any) -> Any:
     from rclpy.executors import SingleThreadedExecutor
 
+    from acts_tools.running.calls import call
     from acts_tools.running.node import command_node
 
     with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
-        client: Client[Any, Any] = node.create_client(kind, name)
-        if not client.wait_for_service(timeout_sec=_FOUND_S):
-            raise BoardError(
-                f"no driver offers {name}: is it launched, in this namespace (--namespace) and with this ROS_DOMAIN_ID?"
-            )
-        future = client.call_async(request)
-        deadline_s = time.monotonic() + _ANSWER_S
-        while not future.done():
-            executor.spin_until_future_complete(future, timeout_sec=_LOOK_S)
-            if future.done():
-                break
-            if not client.service_is_ready():
-                raise BoardError(f"{name} is gone and has not answered: the driver has ended, see its output")
-            if time.monotonic() > deadline_s:
-                raise BoardError(
-                    f"{name} has not answered within {_ANSWER_S:g} s: the driver was killed or hangs, see its output"
-                )
-        return future.result()
+        limits = {"found_s": _FOUND_S, "answer_s": _ANSWER_S}
+        return call(node, executor, kind, name, request, who="driver", error=BoardError, **limits)

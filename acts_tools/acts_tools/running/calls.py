@@ -1,0 +1,72 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Call a service of a running node, for a command."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+from acts_core.errors import ActsError
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+    from rclpy.executors import Executor
+    from rclpy.node import Node
+
+FOUND_S = 10.0
+"""How long a service may take to be found [s]."""
+
+ANSWER_S = 30.0
+"""How long its answer may take [s]."""
+
+_LOOK_S = 0.5
+
+
+def call(
+    node: Node,
+    executor: Executor,
+    kind: Any,
+    name: str,
+    request: Any,
+    *,
+    who: str,
+    error: type[ActsError],
+    found_s: float = FOUND_S,
+    answer_s: float = ANSWER_S,
+) -> Any:
+    """What a service answers.
+
+    Parameters
+    ----------
+    node, executor
+        As of `acts_tools.running.node.command_node`, with a `SingleThreadedExecutor`.
+    kind, name, request
+        Type of the service, its full name, and what it is asked.
+    who : str
+        Who offers it, in one word, for errors.
+    error : type
+        What to raise.
+    found_s, answer_s : float
+        Limits of time [s].
+
+    Raises
+    ------
+    error
+        Nobody offers it, its node ends, or it does not answer.
+    """
+    client: Client[Any, Any] = node.create_client(kind, name)
+    if not client.wait_for_service(timeout_sec=found_s):
+        raise error(f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID?")
+    future = client.call_async(request)
+    deadline_s = time.monotonic() + answer_s
+    while not future.done():
+        executor.spin_until_future_complete(future, timeout_sec=_LOOK_S)
+        if future.done():
+            break
+        if not client.service_is_ready():
+            raise error(f"{name} is gone and has not answered: the {who} has ended, see its output")
+        if time.monotonic() > deadline_s:
+            raise error(f"{name} has not answered within {answer_s:g} s: the {who} was killed or hangs, see its output")
+    return future.result()
