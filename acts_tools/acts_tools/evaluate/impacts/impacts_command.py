@@ -37,8 +37,8 @@ TOUCH_MS = 8.7
 _MIDDLE_M = 0.035
 _UNTOUCHED_S = (0.045, 0.065)
 _TITLE = (
-    f"{'M':>4} {'method':6} {'scheme':9} {'frames/s':>8} {'frames':>7} {'told':>8} {'force change':>12} "
-    f"{'onset ms':>9} {'within 1':>8} {'duration ms':>11} {'peak':>5} {'impulse':>7} {'delay ms':>8}"
+    f"{'M':>4} {'method':6} {'scheme':9} {'frames/s':>8} {'frames':>7} {'detected':>8} {'force change':>12} "
+    f"{'onset ms':>9} {'<1sigma':>8} {'duration ms':>11} {'peak':>5} {'impulse':>7} {'delay ms':>8}"
 )
 
 
