@@ -23,7 +23,7 @@ export class Ball {
           <div><dt>Tilt [°]</dt><dd data-ball="tilt"></dd></div>
         </dl>
       </div>
-      <p class="note">In the level: ring, the tilt that is asked for; dot, that of the plate; rim ${Math.round((FULL_RAD * 180) / Math.PI)}°.</p>`;
+      <p class="note">In the circle: ring, the tilt that is asked for; dot, that of the plate; rim ${Math.round((FULL_RAD * 180) / Math.PI)}°.</p>`;
     this.find = (selector) => element.querySelector(selector);
   }
 
