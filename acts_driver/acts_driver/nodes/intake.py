@@ -159,8 +159,10 @@ class Intake:
             return
         self._wrong_size_told = self.stream.wrong_size_last
         rows, cols = self._wrong_size_told
+        own_rows, own_cols = self._size
         self._log(
             "error",
-            f"the board sends frames of {rows} x {cols} taxels, expected are {self._size[0]} x {self._size[1]}; they "
-            "are dropped: set the parameters rows and cols",
+            f"the board sends frames of {rows} x {cols} taxels, expected are {own_rows} x {own_cols}; they are "
+            "dropped: set the parameters rows and cols; a simulated board reads no params file, it needs the launch "
+            f"arguments rows:={own_rows} cols:={own_cols}",
         )

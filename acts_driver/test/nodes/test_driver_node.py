@@ -97,9 +97,11 @@ def test_frames_of_many_sizes_do_not_fill_the_log(board: PtyBoard, rig: Rig, cap
     for k in range(0, 200, 2):
         board.write_frames(frame(k), frame(k + 1, rows=1 + k % 30, cols=24))
     rig.status_until(lambda status: status.get("wrong_size") == "100", "the counts")
-    told = capfd.readouterr().err.count("they are dropped: set the parameters rows and cols")
+    log = capfd.readouterr().err
+    told = log.count("they are dropped: set the parameters rows and cols")
     # At first at once, then now and then.
     assert 1 <= told < 10
+    assert log.count("a simulated board reads no params file, it needs the launch arguments rows:=32 cols:=32") == told
 
 
 def test_a_report_names_both_sizes_and_falls_back_to_fine(
