@@ -56,7 +56,7 @@ def told_of(
         def measure(row: int, col: int) -> int:
             nonlocal next_s
             next_s += SAMPLE_S
-            return int(np.clip(round(float(pressure(next_s)[row, col] + 2 * rng.standard_normal())), 0, 1023))
+            return min(max(round(float(pressure(next_s)[row, col] + 2 * rng.standard_normal())), 0), 1023)
 
         indices, counts = sampler.frame(measure)
         if lost_s[0] <= begin_s < lost_s[1]:
