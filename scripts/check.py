@@ -22,6 +22,11 @@ MAX_PROCESSES = 4
 CXX_PATTERNS = ("*.cpp", "*.hpp", "*.h", "*.ino")
 # Errors here and not in the build: a warning that only a newer compiler knows must not keep anybody from building.
 CXX_WARNINGS = ["-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
+# What each process of tests would else compile by itself: kernels, and files of tests, which pytest keeps compiled.
+WARM_UP = {
+    "kernels": [sys.executable, "scripts/compile_kernels.py"],
+    "files of tests": [sys.executable, "-m", "pytest", "--collect-only", "-o", "addopts=", "-p", "no:terminal"],
+}
 # Assembler of the Teensy's processor; scripts/firmware.py compiles it, with the same warnings.
 TARGET_ONLY = "acts_firmware/teensy/qemu/"
 
@@ -136,7 +141,7 @@ def main() -> int:
         print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
         failures = ["linters: not installed"] if arguments.lint else []
     else:
-        failures = lint({} if arguments.lint else {"kernels": [sys.executable, "scripts/compile_kernels.py"]})
+        failures = lint({} if arguments.lint else WARM_UP)
     if not arguments.lint:
         failures += test(arguments.pytest)  # also when a linter complained, so that one run shows all there is
     return ended(failures)
