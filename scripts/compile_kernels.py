@@ -9,9 +9,13 @@ from acts_core.wire import StreamDecoder
 from acts_driver.baseline import BaselineTracker
 from acts_recon.contacts import BlobTracker
 from acts_recon.settings import ReconstructionSettings
+from acts_sim.ball import World, WorldConfig
+from acts_sim.hand import HandWorld, HandWorldConfig
 
 
 def main() -> None:
+    World(WorldConfig())
+    HandWorld(HandWorldConfig())
     StreamDecoder()
     BaselineTracker(32, 32)
     for settings in (
