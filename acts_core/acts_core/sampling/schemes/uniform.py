@@ -48,9 +48,10 @@ def uniform_spacing(rows: int, cols: int, m: int) -> tuple[int, int]:
     """
     found = _spacing(rows, cols, m)
     if found is None:
-        possible = [other for other in range(1, rows * cols + 1) if _spacing(rows, cols, other) is not None]
-        below = max((other for other in possible if other < m), default=possible[0])
-        above = min((other for other in possible if other > m), default=possible[-1])
+        # One taxel and all taxels are grids of every array.
+        fewer, more = range(min(m - 1, rows * cols), 0, -1), range(max(m + 1, 1), rows * cols + 1)
+        below = next((other for other in fewer if _spacing(rows, cols, other) is not None), 1)
+        above = next((other for other in more if _spacing(rows, cols, other) is not None), rows * cols)
         raise SettingsError(
             f"m = {m}: no uniform grid of {rows} x {cols} has so many taxels; the nearest have {below} and {above}"
         )
