@@ -19,6 +19,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import pytest
 from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
@@ -216,9 +217,13 @@ def test_after_a_stall_only_what_is_asked_for_is_commanded(cases: list[tuple[flo
             assert rig.loop.start()
             rig.await_phase(Phase.BALANCING)
 
-    # At the same time: most of what they do is waiting.
+    at_the_same_time(scenario, [(number, *case) for number, case in enumerate(cases, 1)])
+
+
+def at_the_same_time(scenario: Callable[..., None], cases: list[tuple[Any, ...]]) -> None:
+    """Run a scenario with each of these arguments in a thread of its own: most of what they do is waiting."""
     with ThreadPoolExecutor(len(cases)) as pool:
-        for future in [pool.submit(scenario, number, *case) for number, case in enumerate(cases, 1)]:
+        for future in [pool.submit(scenario, *case) for case in cases]:
             future.result()
 
 
@@ -297,22 +302,25 @@ os.kill(os.getpid(), signal.SIGKILL)
         assert any(words == SERVO_J for _at_s, _port, words in simulated.orders())
 
 
-@pytest.mark.parametrize(("host", "number"), [("127.0.17.15", signal.SIGSTOP), ("127.0.17.16", signal.SIGKILL)])
-def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more(host: str, number: signal.Signals) -> None:
+def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more() -> None:
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
-    with ExitStack() as stack:
-        simulated = stack.enter_context(SimulatedRobot(host, far))
-        rig = Rig(host, stack, simulated=simulated, homing_speed_rad_s=0.3)
-        wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
-        assert rig.arm._process is not None
-        rig.arm._process.send_signal(number)
-        rig.await_phase(Phase.STOPPED)
-        wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
-        wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
-        # It has not gone on to the level pose.
-        assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
-        assert rig.loop.start()
-        rig.await_phase(Phase.BALANCING, 60.0)
+
+    def scenario(host: str, number: signal.Signals) -> None:
+        with ExitStack() as stack:
+            simulated = stack.enter_context(SimulatedRobot(host, far))
+            rig = Rig(host, stack, simulated=simulated, homing_speed_rad_s=0.3)
+            wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
+            assert rig.arm._process is not None
+            rig.arm._process.send_signal(number)
+            rig.await_phase(Phase.STOPPED)
+            wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
+            wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
+            # It has not gone on to the level pose.
+            assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
+            assert rig.loop.start()
+            rig.await_phase(Phase.BALANCING, 60.0)
+
+    at_the_same_time(scenario, [("127.0.17.15", signal.SIGSTOP), ("127.0.17.16", signal.SIGKILL)])
 
 
 def test_an_arm_stops_when_our_process_stands_still() -> None:
