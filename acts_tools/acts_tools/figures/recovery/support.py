@@ -34,7 +34,8 @@ def _measure_support(run: Run) -> list[Panel]:
     def measure() -> Any:
         pairs = [(method, scheme) for method in ("paper", "linear") for scheme in SCHEMES]
         recordings = presses.presses(run, presses.objects(run))
-        return presses.over_m(run, "support over M", recordings, pairs, presses.shipped())
+        rate_hz = run.pick(1000.0, presses.TENTH_HZ)
+        return presses.over_m(run, "support over M", recordings, pairs, presses.shipped(), rate_hz=rate_hz)
 
     found = run.shared("support", measure)
     ms = [float(m) for m in found["m"]]
