@@ -28,6 +28,7 @@ COMMANDS = {
     "listen": ("acts_tools.listen.command", "measure loss and delay of a topic on this machine"),
     "driver": ("acts_tools.driver.command", "control a running driver: query, calibrate, tare, set"),
     "param": ("acts_tools.parameters.command", "show and set parameters of a running node"),
+    "call": ("acts_tools.services.command", "call a service of a running node, such as grasp or stop"),
     "diagnostics": ("acts_tools.diagnostics.command", "print the diagnostics of the running nodes"),
     "selftest": ("acts_tools.selftest.command", "test a board, its wiring and its skin"),
     "doctor": ("acts_tools.doctor.command", "check this machine, and say how to correct what is wrong"),
