@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import argparse
+import errno
+import os
 import sys
 import time
 from contextlib import AbstractContextManager, ExitStack, nullcontext
@@ -114,6 +116,7 @@ def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest
     from acts_tools.selftest.session import BoardReader
 
     port = arguments.port if skin is None else skin.port
+    _require_possible(port)
     with BoardReader(port, arguments.protocol, arguments.rows, arguments.cols, arguments.baud) as board:
         state = board.query()
         if state is None:
@@ -122,6 +125,15 @@ def _test(arguments: argparse.Namespace, skin: SimulatedSkin | None) -> SelfTest
         who = f", board {state.board_id}, firmware {version_in_words(state)}"
         with board.full_frames(state.settings) as settings:
             return _phases(arguments, skin, board, who, float(settings.frame_period_us))
+
+
+def _require_possible(port: str) -> None:
+    """Let a name that no file can have be told as it is of other commands (acts_tools.cli)."""
+    try:
+        os.lstat(port)
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            raise
 
 
 def _phases(
