@@ -124,6 +124,7 @@ def _typed(descriptor: ParameterDescriptor, text: str) -> bool | int | float | s
         if kind == ParameterType.PARAMETER_DOUBLE:
             return float(text)
     except (KeyError, ValueError) as error:
-        needed = {1: "true or false", 2: "a whole number", 3: "a number"}[kind]
+        kinds = {ParameterType.PARAMETER_BOOL: "true or false", ParameterType.PARAMETER_INTEGER: "a whole number"}
+        needed = kinds.get(kind, "a number")
         raise SettingsError(f"{descriptor.name} = '{text}': needed is {needed}") from error
     raise SettingsError(f"{descriptor.name} is neither a number, text, nor true or false: set it in a params file")
