@@ -84,6 +84,14 @@ def test_a_cylinder_that_nothing_pulls_does_not_slip(monkeypatch: pytest.MonkeyP
     assert outcome.details["held_s"] == pytest.approx(0.2)
 
 
+def test_how_hard_the_hand_grips_before_the_pull_is_told() -> None:
+    outcome = slip.run(Run(703, reflex=False))
+    grasped_n, before_n = (outcome.details[name] for name in ("grip_grasped_n", "grip_before_n"))
+    assert 3.0 < grasped_n < 7.0
+    assert before_n == pytest.approx(grasped_n, rel=0.2), "the release makes nothing grip harder"
+    assert outcome.details["max_grip_n"] < 1.0, "it is pulled out of this grip"
+
+
 def test_a_cylinder_that_is_pulled_by_twice_its_weight_is_held() -> None:
     outcome = slip.run(Run(5))
     assert outcome.details["load"] == 2.0

@@ -67,7 +67,7 @@ def run(one: Run) -> Outcome:
         outcome.details["noticed_after_sliding_ms"] = 1e3 * (noticed_s - slid_s)
     if noticed_s is not None and stood_s is not None:
         outcome.stopped_ms = 1e3 * (stood_s - noticed_s)
-    outcome.details["max_grip_n"] = sum(one.force_n for one in rig.regions)
+    outcome.details["max_grip_n"] = _grip_n(rig)
     noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
     outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
     return outcome
@@ -113,7 +113,15 @@ def _grasped(one: Run) -> tuple[Any, Outcome]:
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"
         return None, outcome
+    outcome.details["grip_grasped_n"] = _grip_n(rig)
     rig.world.holder.let_go()
     rig.run(_SETTLED_S)
+    # Much more than before the release is a grip that a false slip has made firm: what then is pulled hardly moves.
+    outcome.details["grip_before_n"] = _grip_n(rig)
     outcome.details["slips_before"] = rig.reflexes["slip"].events if one.reflex else 0
     return rig, outcome
+
+
+def _grip_n(rig: Any) -> float:
+    """Force that the skin feels now, the sum over its patches [N]."""
+    return sum(one.force_n for one in rig.regions)
