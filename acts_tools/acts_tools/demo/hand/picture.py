@@ -40,6 +40,8 @@ _MARGIN_PIXELS = 12
 _PUT = "put"
 _PUT_SETTLED_S = 0.05
 _AVOIDING = "#ff7f0e"
+# Share of the width of a plot that the label of an event takes.
+_LABEL_SHARE = 0.08
 # Height of a row with nothing but a legend, for which the layout makes room: matplotlib before 3.7 knows no other
 # place outside of the axes.
 _LEGEND = 1e-3
@@ -157,7 +159,7 @@ def _draw_motion(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
     moved_mm = 1e3 * (column(rows, "object_position_m") - column(rows, "object_position_m")[0])
     for k, (axis, colour) in enumerate(_AXIS_COLOURS.items()):
         axes.plot(times_s - act.begin_s, moved_mm[:, k], color=colour, lw=1.3, label=f"{axis} of the palm")
-    axes.set(ylabel="motion of the object [mm]")
+    axes.set(ylabel="object moved [mm]")
 
 
 def _draw_slip(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
@@ -169,7 +171,7 @@ def _draw_slip(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
             [one.slip_m for one in regions if LEAP_RIGHT.regions[one.name].finger == finger] for _, regions in inside
         ]
         axes.plot(times_s, [1e3 * max(slips, default=0.0) for slips in of_it], color=colour, lw=1.3)
-    axes.set(ylabel="slip measured by the skin [mm]")
+    axes.set(ylabel="slip felt [mm]")
 
 
 def _mark(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
@@ -184,14 +186,22 @@ def _mark(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
 
 
 def _name_marks(axes: Any, act: Act, begin_s: float, end_s: float) -> None:
+    """Name commanded events above their lines; those too near to each other in one label, at the first."""
+    labels: list[tuple[float, str]] = []
     for time_s, words in act.recording.marks:
-        if begin_s <= time_s <= end_s:
-            axes.annotate(
-                words,
-                (time_s - act.begin_s, 1.02),
-                xycoords=("data", "axes fraction"),
-                fontsize=9,
-                rotation=25,
-                ha="left",
-                va="bottom",
-            )
+        if not begin_s <= time_s <= end_s:
+            continue
+        if labels and time_s - labels[-1][0] < _LABEL_SHARE * (end_s - begin_s):
+            labels[-1] = (labels[-1][0], f"{labels[-1][1]}, {words}")
+        else:
+            labels.append((time_s, words))
+    for time_s, words in labels:
+        axes.annotate(
+            words,
+            (time_s - act.begin_s, 1.02),
+            xycoords=("data", "axes fraction"),
+            fontsize=9,
+            rotation=25,
+            ha="left",
+            va="bottom",
+        )
