@@ -277,9 +277,7 @@ def test_only_namespaces_are_taken_as_skins(skins: str) -> None:
         ViewSettings(skins=skins)
 
 
-def test_recordings_may_be_meant_for_the_home_folder(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_recordings_may_be_meant_for_the_home_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     assert ViewSettings(record_dir="~/recordings").record_folder == tmp_path / "recordings"
     assert ViewSettings().record_folder == Path("recordings")
