@@ -100,9 +100,8 @@ def pytest_collection() -> Iterator[None]:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Side by side, mix what computes with what waits, which is much the same within a package.
 
-    The files of every package are spread over the whole run. Those marked `long` come in the first half: the last one
-    to begin would run while the other processes have nothing left. Those with tests that run alone come first: later,
-    all processes would wait for the longest test.
+    The files of every package are spread over the whole run. Those with tests that run alone come first: later, all
+    processes would wait for the longest test.
     """
     if "PYTEST_XDIST_WORKER" not in os.environ:
         return
@@ -110,8 +109,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for path in dict.fromkeys(item.path for item in items):
         files.setdefault(path.relative_to(_ROOT).parts[0], []).append(path)
     places = {path: number / len(paths) for paths in files.values() for number, path in enumerate(paths)}
-    for path in {item.path for item in items if item.get_closest_marker("long") is not None}:
-        places[path] /= 2
     places.update({item.path: -1.0 for item in items if _is_alone(item)})
     items.sort(key=lambda item: places[item.path])
 

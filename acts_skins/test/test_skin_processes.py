@@ -31,7 +31,7 @@ from acts_sim.shared import FileClaim
 from acts_skins.skin_processes import SkinProcesses
 from acts_skins.skins_file import read_skins
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 DEADLINE_S = 120.0
 TWO = """

@@ -20,7 +20,7 @@ from acts_ros.messages import stamp_ns_of
 from acts_ros.qos import STREAM
 from acts_tools.testing.launch_runner import Launched, LaunchFile, launch_fixture, launch_test
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 
 def skins_file(folder: Path) -> Path:

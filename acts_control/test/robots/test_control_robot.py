@@ -19,7 +19,7 @@ from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_comman
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 CONNECTING, HOMING = BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_HOMING
 WAITING, BALANCING = BalanceStatus.STATE_WAITING, BalanceStatus.STATE_BALANCING

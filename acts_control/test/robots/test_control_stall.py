@@ -34,7 +34,7 @@ from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, probe
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 # Within it the end of motion must have been told: a few steps after it counts as stale where the machine is not loaded.
 # What waited for the library took 6 s.

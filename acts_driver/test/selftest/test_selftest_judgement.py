@@ -29,8 +29,6 @@ from acts_driver.selftest import (
 from acts_driver.selftest.findings import taxels_listed
 from acts_driver.selftest.untouched import noise_of
 
-pytestmark = pytest.mark.slow
-
 THRESHOLDS = Thresholds()
 SAMPLE_US = 17.7
 

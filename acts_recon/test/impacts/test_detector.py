@@ -22,8 +22,6 @@ from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 
-pytestmark = pytest.mark.slow
-
 Array = NDArray[np.float64]
 
 SAMPLE_S = 18e-6

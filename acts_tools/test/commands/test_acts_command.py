@@ -22,8 +22,6 @@ from acts_tools.__main__ import run
 from acts_tools.cli import COMMANDS, main
 from acts_tools.launch import command
 
-pytestmark = pytest.mark.slow
-
 PACKAGE = Path(__file__).parents[2]
 
 

@@ -30,7 +30,7 @@ from acts_tools.hand_rigs.live import HandRefusalError
 from acts_tools.hand_rigs.live_rig import LiveRig, LiveSupervisor
 from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 CONFIG = HandWorldConfig(object="cylinder", object_held=True)
 PATCHES = layout("leap_right").patches

@@ -22,7 +22,7 @@ from acts_tools.evaluate.hand import poke, scenarios, slip, sphere
 from acts_tools.evaluate.hand.scenario import Outcome, Run
 from acts_tools.hand_rigs.rig import HandRig, RigOptions
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
+pytestmark = pytest.mark.slow
 
 
 def test_the_same_seed_gives_the_same_bits() -> None:

@@ -22,8 +22,6 @@ from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.run import Run
 from acts_tools.figures.sheet import PUBLISHED, SAME, Contours, Curve, Panel, Picture, from_json, to_json
 
-pytestmark = [pytest.mark.slow, pytest.mark.long]
-
 PNG = b"\x89PNG\r\n\x1a\n"
 
 

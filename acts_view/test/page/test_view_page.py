@@ -20,7 +20,7 @@ from acts_view.skin.snapshot import SkinShape
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = [needs_browser, pytest.mark.slow, pytest.mark.long]
+pytestmark = [needs_browser, pytest.mark.slow]
 
 
 def taxel_colours(page: Page) -> np.ndarray:
