@@ -66,56 +66,49 @@ class DiagnosticsReporter:
         problem = self._only.problem()
         if problem:
             level, message = max(level, WARN), f"{message}; {problem}" if level else problem
-        self._publisher.publish(_array(self._node, self.hardware_id, (level, message, values)))
+        self._send(level, message, values)
+
+    @contextmanager
+    def busy(self, message: str, *, period_s: float = 1.0) -> Iterator[None]:
+        """Publish one warning again and again, from a thread of its own, while the block runs and the node cannot spin.
+
+        The first one is published after `period_s`, so that a start that takes no longer warns of nothing.
+
+        Parameters
+        ----------
+        message : str
+            What takes so long.
+        """
+        is_over = threading.Event()
+
+        def warn() -> None:
+            while not is_over.wait(period_s):
+                self._send(WARN, message, {})
+
+        thread = threading.Thread(target=warn, name="acts_busy", daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            is_over.set()
+            thread.join()
 
     def destroy(self) -> None:
         """Stop reporting."""
         self._node.destroy_timer(self._timer)
         self._node.destroy_publisher(self._publisher)
 
-
-@contextmanager
-def reporting(node: Node, hardware_id: str, message: str, *, period_s: float = 1.0) -> Iterator[None]:
-    """Publish one warning again and again, on a thread of its own, while the block runs: the node cannot spin yet.
-
-    The first one is published after `period_s`, so that a start that takes no longer warns of nothing.
-
-    Parameters
-    ----------
-    node, hardware_id
-        As of `DiagnosticsReporter`.
-    message : str
-        What takes so long.
-    """
-    publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
-    is_over = threading.Event()
-
-    def report() -> None:
-        while not is_over.wait(period_s):
-            publisher.publish(_array(node, hardware_id, (WARN, message, {})))
-
-    thread = threading.Thread(target=report, name="acts_reporting", daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        is_over.set()
-        thread.join()
-        node.destroy_publisher(publisher)
-
-
-def _array(node: Node, hardware_id: str, report: Report) -> DiagnosticArray:
-    level, message, values = report
-    status = DiagnosticStatus(
-        level=bytes([level]),
-        name=node.get_fully_qualified_name().lstrip("/"),
-        message=message,
-        hardware_id=hardware_id,
-        values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
-    )
-    array = DiagnosticArray(status=[status])
-    array.header.stamp = node.get_clock().now().to_msg()
-    return array
+    def _send(self, level: int, message: str, values: Mapping[str, object]) -> None:
+        status = DiagnosticStatus(
+            level=bytes([level]),
+            name=self._node.get_fully_qualified_name().lstrip("/"),
+            message=message,
+            hardware_id=self.hardware_id,
+            values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(array)
 
 
 def _text(value: object) -> str:

@@ -12,7 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
-from acts_ros.diagnostics import WARN, DiagnosticsReporter, reporting
+from acts_ros.diagnostics import WARN, DiagnosticsReporter
 
 
 def test_the_report_arrives_with_name_level_and_values() -> None:
@@ -47,8 +47,9 @@ def test_a_node_that_cannot_spin_yet_is_heard_until_it_can() -> None:
     executor.add_node(peer)
     received: list[DiagnosticArray] = []
     peer.create_subscription(DiagnosticArray, "/diagnostics", received.append, 10)
+    reporter = DiagnosticsReporter(node, "/plate/samples", lambda: (WARN, "ready", {}), period_s=0.05)
     deadline_s = time.monotonic() + 20
-    with reporting(node, "/plate/samples", "compiling", period_s=0.05):
+    with reporter.busy("compiling", period_s=0.05):
         while len(received) < 2:
             assert time.monotonic() < deadline_s, "timed out"
             executor.spin_once(timeout_sec=0.05)
@@ -57,9 +58,12 @@ def test_a_node_that_cannot_spin_yet_is_heard_until_it_can() -> None:
         assert status.name == "plate/reconstruction"
         assert status.hardware_id == "/plate/samples"
         assert (status.level, status.message) == (b"\x01", "compiling")
-    while node.count_publishers("/diagnostics"):
-        assert time.monotonic() < deadline_s, "it goes on"
+    executor.add_node(node)
+    while sum(message.status[0].message == "ready" for message in received) < 3:
+        assert time.monotonic() < deadline_s, "timed out"
         executor.spin_once(timeout_sec=0.05)
+    words = [message.status[0].message for message in received]
+    assert "compiling" not in words[words.index("ready") :]
     executor.shutdown()
     node.destroy_node()
     peer.destroy_node()

@@ -42,7 +42,7 @@ from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
-from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report, reporting
+from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
@@ -90,8 +90,12 @@ class ReconstructionNode(Node):
         if self._settings.unused:
             self.get_logger().warning(f"{', '.join(self._settings.unused)}: not used by method {self._settings.method}")
         self.get_logger().info(_COMPILING)
-        samples = self.resolve_topic_name("samples")
-        with reporting(self, samples, _COMPILING):
+        only = ["contact", "contacts", "regions"]
+        only += (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
+        self._diagnostics = DiagnosticsReporter(
+            self, self.resolve_topic_name("samples"), self._report, only_publishers=only
+        )
+        with self._diagnostics.busy(_COMPILING):
             self._pipeline = FramePipeline(self._settings, self._forget)
             self._recovery = self._pipeline.recovery
             self._parts = self._make_parts()
@@ -115,9 +119,6 @@ class ReconstructionNode(Node):
 
         self._look_for_subscribers()
         steady_timer(self, _SUBSCRIBERS_PERIOD_S, self._look_for_subscribers)
-        only = ["contact", "contacts", "regions"]
-        only += (["samples"] if subscribes else []) + (["baseline"] if self._settings.subtract_baseline else [])
-        self._diagnostics = DiagnosticsReporter(self, samples, self._report, only_publishers=only)
         if self._settings.subtract_baseline:
             self.create_subscription(Baseline, "baseline", self._on_baseline, **qos.overridable(qos.LATCHED))
         # Messages that are recovered after all that the executor has to do, with the times of their reception [ns].
