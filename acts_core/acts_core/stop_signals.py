@@ -16,7 +16,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
 
@@ -25,8 +25,14 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # As the process was started: later `StopSignals.ended` has it ignored, too.
 _NOHUP = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
 
-LAST_RESORT_S = 12.0
-"""A program that has not ended so long after the first signal writes where it hangs and exits with code 1 [s]."""
+LAST_RESORT_S = 9.0
+"""A program that has not ended so long after the first signal writes where it hangs and exits with code 1 [s].
+
+A second before ``ros2 launch`` would kill it without a word.
+"""
+
+LAST_RESORT_VARIABLE = "ACTS_LAST_RESORT_S"
+"""Environment variable by which a launcher that kills sooner says so; a number of seconds."""
 
 _AGAIN_S = 0.05
 """After an interruption was lost in a library, it is tried again this much later [s]."""
@@ -40,6 +46,15 @@ def signal_name(number: int) -> str:
         return f"signal {number}"
 
 
+def last_resort_s_of(environment: Mapping[str, str]) -> float:
+    """The time of the last resort [s]; a variable that holds no such time is as good as none."""
+    try:
+        given_s = float(environment.get(LAST_RESORT_VARIABLE, LAST_RESORT_S))
+    except ValueError:
+        return LAST_RESORT_S
+    return given_s if 0.0 < given_s < LAST_RESORT_S else LAST_RESORT_S
+
+
 class StopSignals:
     """Takes the stop signals of this process, from its making on. For the main thread.
 
@@ -47,12 +62,12 @@ class StopSignals:
 
     Parameters
     ----------
-    last_resort_s : float
-        See `LAST_RESORT_S`.
+    last_resort_s : float or None
+        See `LAST_RESORT_S`; None: as `LAST_RESORT_VARIABLE` says, or that.
     """
 
-    def __init__(self, last_resort_s: float = LAST_RESORT_S) -> None:
-        self._last_resort_s = last_resort_s
+    def __init__(self, last_resort_s: float | None = None) -> None:
+        self._last_resort_s = last_resort_s_of(os.environ) if last_resort_s is None else last_resort_s
         self._lock = threading.Lock()
         self._is_set = False
         # Seen by the handler already: the thread that calls back may be late on a busy machine.
@@ -129,11 +144,13 @@ class StopSignals:
             raise KeyboardInterrupt
 
     def ended(self) -> None:
-        """Tell that the program has ended in order, and its process is about to: signals are ignored from now on."""
+        """Tell that the program has ended in order, and its process is about to: signals are ignored from now on.
+
+        The last resort stays: the interpreter may still wait for a thread, or a library hang while it is unloaded.
+        """
         # The interpreter, when it goes, gives signals back to the system, which would kill; ignored ones it leaves.
         for number in STOP_SIGNALS:
             signal.signal(number, signal.SIG_IGN)
-        faulthandler.cancel_dump_traceback_later()
 
     def _handle(self, number: int, _frame: FrameType | None) -> None:
         self._first = self._first or signal.Signals(number)

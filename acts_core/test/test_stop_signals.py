@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from acts_core.stop_signals import signal_name
+from acts_core.stop_signals import LAST_RESORT_S, LAST_RESORT_VARIABLE, last_resort_s_of, signal_name
 
 DEADLINE_S = 60.0
 
@@ -149,6 +149,28 @@ def test_what_does_not_end_is_ended_and_tells_where_it_hangs() -> None:
         errors = process.stderr.read()
     assert "Timeout" in errors
     assert "most recent call first" in errors
+
+
+def test_what_hangs_after_its_orderly_end_is_ended_too() -> None:
+    # The interpreter waits for such a thread.
+    code = "threading.Thread(target=threading.Event().wait).start()\n" + ENDS
+    with program(code, 1.0) as process:
+        assert line(process) == "running"
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate("go on\n", timeout=DEADLINE_S)
+    assert output == "ending\nended by SIGINT\n"
+    assert "most recent call first" in errors
+    assert process.returncode == 1
+
+
+@pytest.mark.parametrize(("given", "expected_s"), [("4", 4.0), ("0.5", 0.5)])
+def test_a_launcher_that_kills_sooner_has_the_last_resort_come_before(given: str, expected_s: float) -> None:
+    assert last_resort_s_of({LAST_RESORT_VARIABLE: given}) == expected_s
+
+
+@pytest.mark.parametrize("given", ["", "soon", "nan", "0", "-1", "1000", "inf"])
+def test_no_launcher_has_the_last_resort_come_never_or_at_once(given: str) -> None:
+    assert last_resort_s_of({LAST_RESORT_VARIABLE: given}) == last_resort_s_of({}) == LAST_RESORT_S
 
 
 def test_a_signal_without_a_name_has_a_number() -> None:

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import IO
 
 from acts_core.errors import REFUSED_EXIT_CODE
-from acts_core.stop_signals import signal_name
+from acts_core.stop_signals import LAST_RESORT_VARIABLE, signal_name
 from acts_ros.executables.refused import LAUNCHER_VARIABLE
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
@@ -36,6 +36,8 @@ _YOUNG_S = 2.0
 _DRAIN_S = 0.5
 # How often lines that nobody has read are tried again.
 _CATCH_UP_S = 0.1
+# So long before it would be killed, a process that hangs is to say where.
+_LAST_WORDS_S = 0.5
 # One that writes without a pause is read no further in a turn; far more than a pipe holds, so that its rest is read.
 _READS = 16
 _READ_BYTES = 65536
@@ -199,10 +201,11 @@ class Launcher:
 
     def _start(self, child: _Child) -> None:
         child.restart_at_s = None
+        last_resort_s = self._sigterm_timeout_s + self._sigkill_timeout_s - _LAST_WORDS_S
         try:
             child.popen = subprocess.Popen(
                 child.process.command,
-                env={**child.process.environment, LAUNCHER_VARIABLE: "1"},
+                env={**child.process.environment, LAUNCHER_VARIABLE: "1", LAST_RESORT_VARIABLE: f"{last_resort_s}"},
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

@@ -137,6 +137,25 @@ def test_what_has_only_begun_to_start_ends_without_a_traceback(tmp_path: Path) -
         assert "[it-1]: process has ended as told" in run.output
 
 
+def test_what_hangs_tells_where_before_it_would_be_killed(tmp_path: Path) -> None:
+    hanging = """
+import threading
+from acts_core.stop_signals import StopSignals
+signals = StopSignals()
+print("ready", flush=True)
+threading.Event().wait()
+"""
+    begin, child, end = PROGRAM.split('"""')
+    assert "signal.pause" in child
+    program = f'{begin}"""{hanging}"""{end}'.replace("Console(None), ", "Console(None), 1.0, 2.0, ")
+    with running(tmp_path, program) as run:
+        run.process.send_signal(signal.SIGINT)
+        assert run.process.wait(DEADLINE_S) == 1
+        assert run.output.count("most recent call first") >= 2
+        assert "sending signal 'SIGTERM'" in run.output
+        assert "sending signal 'SIGKILL'" not in run.output
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_that_comes_when_all_has_ended_changes_nothing(tmp_path: Path, number: signal.Signals) -> None:
     with running(tmp_path, PROGRAM, "wait") as run:
