@@ -22,15 +22,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from balancing_rig import HELD_UP_S, Rig
 from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
 from diagnostic_msgs.msg import DiagnosticArray
 
 import acts_control.robots.ur.robot
-from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
-from acts_control.robots import with_robots
-from acts_control.robots.base import RobotReading
-from acts_control.robots.ur import UrRobot
+from acts_control.ball import Phase
+from acts_control.robots.ur import UrConfig, UrRobot
 from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, probe
+from acts_core.errors import RobotError
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
@@ -40,106 +40,10 @@ pytestmark = pytest.mark.slow
 # What waited for the library took 6 s.
 TOLD_WITHIN_S = 4.0
 
-# Where this machine held up the loop's own steps for longer in all, what is told says nothing of the loop: after 2.5 s
-# without data the library ends the connection by itself.
-HELD_UP_S = 1.0
-STOOD_STILL = "the robot has ended its program: this process stood still"
-
 # From the last reading to the moment of the stall, and on to the end of the robot's first cycle after it.
 SETTLED_S = 0.1
 
 CLEAR, MOVE_J, SERVO_J, SET_WATCHDOG = "command 0", "command 1", "command 11", "command 35"
-
-
-class Arm(UrRobot):
-    """Remembers the robot's time when it was last read."""
-
-    time_s = 0.0
-
-    def read(self) -> RobotReading:
-        reading = super().read()
-        self.time_s = reading.time_s
-        return reading
-
-    @property
-    def is_over(self) -> bool:
-        """Whether the process of the last connection has ended."""
-        return self._process is not None and self._process.poll() is not None
-
-
-class Rig:
-    """A simulated robot, and a control loop that balances a ball that never comes to rest."""
-
-    def __init__(
-        self,
-        host: str,
-        stack: ExitStack,
-        stale_after_s: float = 0.8,
-        simulated: SimulatedRobot | None = None,
-        homing_speed_rad_s: float = 2.0,
-    ) -> None:
-        self.simulated = simulated or stack.enter_context(SimulatedRobot(host))
-        config = with_robots(LoopConfig)(
-            robot_ip=host,
-            robot_stale_after_s=stale_after_s,
-            touch_stale_after_s=1.0,
-            connect_retry_s=0.1,
-            homing_speed_rad_s=homing_speed_rad_s,
-        )
-        self.arm = Arm(config)
-        # How long steps were late in all, of those since the last start or pause [s].
-        self.held_up_s = 0.0
-        self._stepped_s = time.monotonic()
-        self.loop = ControlLoop(config, self.arm, time.time_ns)
-        self.loop.look = self._feel
-        stack.callback(self.loop.close)
-        self.loop.launch()
-
-    def _feel(self, _phase: Phase) -> None:
-        before_s, self._stepped_s = self._stepped_s, time.monotonic()
-        # Steps are due every 8 ms, and the loop counts no step for longer than four of these.
-        if self.loop.status.steps:
-            self.held_up_s += max(self._stepped_s - before_s - 0.032, 0.0)
-        now_ns = time.time_ns()
-        self.loop.ball = BallReport(now_ns, True, Ball(0.02, 0.01, 0.0, 0.0))
-        self.loop.reference = ReferenceReport(now_ns, Reference(0.0, 0.0))
-
-    def await_phase(self, phase: Phase, timeout_s: float = 30.0) -> str:
-        wait_for(lambda: self.loop.status.phase is phase, f"{phase.name}, {self.loop.status}", timeout_s)
-        return self.loop.status.reason
-
-    def balance(self) -> None:
-        """Until the plate is tilted; from the start again where this machine stood still meanwhile."""
-
-        def is_tilted() -> bool:
-            status = self.loop.status
-            if status.phase is Phase.STOPPED and (status.reason.startswith(STOOD_STILL) or self.held_up_s > HELD_UP_S):
-                self.start_again()
-            return status.phase is Phase.BALANCING and abs(status.tilt_measured_rad[1]) > 0.02
-
-        wait_for(is_tilted, f"a tilt, {self.loop.status}", 60.0)
-
-    def start_again(self) -> None:
-        """Start anew, as after a stop."""
-        self.held_up_s = 0.0
-        assert self.loop.start()
-
-    def pause(self) -> None:
-        """Let the controller stand still."""
-        self.simulated.process.send_signal(signal.SIGSTOP)
-
-    def resume(self) -> None:
-        """Let it go on."""
-        self.simulated.process.send_signal(signal.SIGCONT)
-
-    def orders_since(self, time_s: float) -> list[str]:
-        """What clients have told the robot after a moment of the robot's time."""
-        return [words for at_s, _port, words in self.simulated.orders() if at_s > time_s]
-
-    def await_time(self, seconds: float) -> None:
-        """Let robot time pass."""
-        end_s = float(self.simulated.state()["time_s"]) + seconds
-        wait_for(lambda: float(self.simulated.state()["time_s"]) > end_s, "the robot's time to pass")
 
 
 def stall(rig: Rig, stall_s: float, meanwhile: Callable[[Rig], None]) -> tuple[float, tuple[float, ...]]:
@@ -270,6 +174,23 @@ def test_a_connection_whose_process_dies_is_lost() -> None:
         assert "has ended (SIGSEGV)" in rig.await_phase(Phase.STOPPED)
         assert rig.loop.start()
         rig.balance()
+
+
+@pytest.mark.parametrize("is_patient", [True, False], ids=["one command at a time", "many"])
+def test_a_robot_that_vanishes_is_told_as_lost_whatever_notices_it_first(is_patient: bool) -> None:
+    # In the loop that is mostly the watch for old readings; here nothing but the command is left to notice.
+    def command() -> bool:
+        if not (is_patient and robot.is_busy):
+            robot.tilt(0.0, 0.0)
+        return False
+
+    with SimulatedRobot("127.0.17.18") as simulated:
+        robot = UrRobot(UrConfig(robot_ip=simulated.host))
+        robot.connect(lambda: True)
+        simulated.process.kill()
+        with pytest.raises(RobotError, match=r"127\.0\.17\.18: .*the connection is lost"):
+            wait_for(command, "the loss")
+        robot.disconnect()
 
 
 def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:

@@ -252,7 +252,8 @@ class UrRobot:
         try:
             self._link.send(json.dumps([name, *arguments]).encode())
         except OSError as error:
-            raise RobotError(f"{self._config.robot_ip}: {name} cannot be handed over ({error.strerror})") from error
+            reason = f"the connection is lost: {name} cannot be handed over ({error.strerror})"
+            raise RobotError(f"{self._config.robot_ip}: {reason}") from error
         self._sent_s = time.monotonic()
         self._pending.append((name, self._sent_s))
 
@@ -300,7 +301,8 @@ class UrRobot:
 _REFUSALS = {
     "setWatchdog": "the robot's program is not running",
     "moveJ": "is the robot on and in remote control?",
-    "servoJ": "the robot's program is not running",
+    # The library does not tell the two apart.
+    "servoJ": "the robot's program is not running, or the connection is lost",
 }
 
 

@@ -65,13 +65,15 @@ class _Connection:
 
     def carry_out(self, name: str, *arguments: object) -> None:
         """Do what a packet says, and answer."""
+        own = {"watch": self._watch, "take_control": self._take_control}
         try:
-            own = {"watch": self._watch, "take_control": self._take_control}
             result = (own.get(name) or getattr(self._control, name))(*arguments)
         except ImportError as error:
             self._tell("failed", f"ur_rtde cannot be imported ({error}); install it with: pip install ur-rtde")
         except (RuntimeError, ValueError) as error:
-            self._tell("failed", f"{name}: {str(error).strip()}")
+            # Once there is a connection, the library raises only where that has ended.
+            lost = "" if name in own else "the connection is lost: "
+            self._tell("failed", f"{lost}{name}: {str(error).strip()}")
         else:
             self._tell("done", result)
 
