@@ -5,14 +5,11 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 
 import pytest
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from spinning_node import spinning_node
 from std_srvs.srv import SetBool, Trigger
 
 from acts_tools.cli import main
@@ -28,39 +25,24 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def hand(domain: None) -> Iterator[list[str]]:
     """What a node `reflexes` in namespace /hand was asked: it grasps, refuses to release, and can be lit."""
-    context = Context()
-    rclpy.init(context=context, domain_id=138)
-    node = Node("reflexes", namespace="/hand", context=context)
     asked: list[str] = []
 
-    def answer(name: str, succeeds: bool, words: str) -> None:
-        def on_call(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            asked.append(name)
-            response.success, response.message = succeeds, words
-            return response
+    def furnish(node: Node) -> None:
+        def answer(name: str, succeeds: bool, words: str) -> None:
+            def on_call(_request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+                asked.append(name)
+                response.success, response.message = succeeds, words
+                return response
 
-        node.create_service(Trigger, f"~/{name}", on_call)
+            node.create_service(Trigger, f"~/{name}", on_call)
 
-    answer("grasp", True, "the hand closes")
-    answer("rest", True, "")
-    answer("release", False, "no touch")
-    node.create_service(SetBool, "~/light", lambda _request, response: response)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    is_over = threading.Event()
+        answer("grasp", True, "the hand closes")
+        answer("rest", True, "")
+        answer("release", False, "no touch")
+        node.create_service(SetBool, "~/light", lambda _request, response: response)
 
-    def spin() -> None:
-        while not is_over.is_set():
-            executor.spin_once(timeout_sec=0.05)
-
-    spinning = threading.Thread(target=spin)
-    spinning.start()
-    yield asked
-    is_over.set()
-    spinning.join()
-    executor.shutdown()
-    node.destroy_node()
-    rclpy.try_shutdown(context=context)
+    with spinning_node("reflexes", "/hand", 138, furnish):
+        yield asked
 
 
 def test_a_service_is_called_and_its_answer_printed(hand: list[str], capsys: pytest.CaptureFixture[str]) -> None:

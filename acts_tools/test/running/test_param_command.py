@@ -5,16 +5,13 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 
 import pytest
-import rclpy
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from spinning_node import spinning_node
 
 from acts_tools.cli import main
 
@@ -23,30 +20,16 @@ from acts_tools.cli import main
 def node(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
     """A node `gains` in namespace /plate, with parameters of four types; it refuses a `kp` of 13."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "137")
-    context = Context()
-    rclpy.init(context=context, domain_id=137)
-    made = Node("gains", namespace="/plate", context=context)
+    with spinning_node("gains", "/plate", 137, _with_parameters) as made:
+        yield made
+
+
+def _with_parameters(node: Node) -> None:
     limits = [FloatingPointRange(from_value=0.0, to_value=200.0)]
-    made.declare_parameter("kp", 18.0, ParameterDescriptor(description="gain", floating_point_range=limits))
+    node.declare_parameter("kp", 18.0, ParameterDescriptor(description="gain", floating_point_range=limits))
     for name, value in (("steps", 3), ("is_on", True), ("robot", "ur5e"), ("joints", [1.0, 2.0])):
-        made.declare_parameter(name, value)
-    made.add_on_set_parameters_callback(_refuse_13)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(made)
-    is_over = threading.Event()
-
-    def spin() -> None:
-        while not is_over.is_set():
-            executor.spin_once(timeout_sec=0.05)
-
-    spinning = threading.Thread(target=spin)
-    spinning.start()
-    yield made
-    is_over.set()
-    spinning.join()
-    executor.shutdown()
-    made.destroy_node()
-    rclpy.try_shutdown(context=context)
+        node.declare_parameter(name, value)
+    node.add_on_set_parameters_callback(_refuse_13)
 
 
 def _refuse_13(parameters: list[Parameter]) -> SetParametersResult:
