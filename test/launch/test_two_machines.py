@@ -29,7 +29,7 @@ DOMAIN_ID = 150
 CONTACT, SAMPLES = "/plate/contact", "/plate/samples"
 BOARD, BASELINE = "/plate/board", "/plate/baseline"
 TOPICS = (CONTACT, SAMPLES, BOARD, BASELINE, "/diagnostics")
-FAR_NODE = "far/reconstruction"
+FAR_NODE, NEAR_NODE = "far/reconstruction", "plate/reconstruction"
 # Numba compiles in the first process that needs a kernel; on a busy machine that takes its time.
 START_S = 120.0
 DEADLINE_S = 30.0
@@ -147,11 +147,17 @@ def test_a_delay_is_seen_in_the_age_and_stays_what_it_is(touch: Touch) -> None:
 
 def test_loss_is_counted_and_makes_nothing_late(touch: Touch) -> None:
     touch.machines.set_conditions(Conditions(loss=0.02))
-    reports = touch.far.collect(15, DEADLINE_S)
-    received = sum(report.topics[CONTACT].received for report in reports)
-    lost = sum(report.topics[CONTACT].lost or 0 for report in reports)
-    # 2 %; a busy board leaves frames out as well.
-    assert 0.005 < lost / (received + lost) < 0.2, reports[-1]
+    deadline_s = time.monotonic() + DEADLINE_S
+    while True:
+        reports = touch.far.collect(15, DEADLINE_S)
+        received = sum(report.topics[CONTACT].received for report in reports)
+        lost = sum(report.topics[CONTACT].lost or 0 for report in reports)
+        # 2 %; a busy board leaves frames out as well.
+        if 0.005 < lost / (received + lost) < 0.2:
+            break
+        # So does a reconstruction that is late, and says so: then once more.
+        assert any("came late" in report.complaints.get(NEAR_NODE, "") for report in reports), reports[-1]
+        assert time.monotonic() < deadline_s, reports[-1]
     # What follows a loss does not wait for it.
     assert any((report.topics[CONTACT].median_ms or DELAY_MS) < DELAY_MS for report in reports)
     touch.far.wait_for(lambda report: "lost" in report.complaints.get(FAR_NODE, ""), DEADLINE_S, "a word about it")
