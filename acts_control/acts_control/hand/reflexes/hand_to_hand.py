@@ -14,6 +14,7 @@ about 200 to 300 N/cm^2 (2 to 3 MPa). Those are limits of pain; comfort is a sma
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -43,6 +44,9 @@ class HandToHandConfig:
     )
     hand_to_hand_steps_per_n: float = setting(0.6, "steps for each newton of difference", minimum=0.01, maximum=20.0)
     hand_to_hand_search_steps: float = setting(0.3, "steps of a phalanx that looks for touch", minimum=0.0, maximum=5.0)
+    hand_to_hand_search_s: float = setting(
+        0.5, "fingers look for touch for so long after none of them has felt any [s]", minimum=0.0, maximum=60.0
+    )
     hand_to_hand_max_steps: float = setting(2.0, "most steps at once", minimum=0.1, maximum=20.0)
     hand_to_hand_deadband_n: float = setting(
         0.2, "differences of less than this have no effect [N]", minimum=0.0, maximum=5.0
@@ -67,11 +71,17 @@ class HandToHandState:
     ----------
     phalanges : int
         Phalanges in touch at the last step.
+    fingers : set of str
+        Fingers that have touched what is held.
+    touched_s : float
+        When any of them last did; -inf before the first [s].
     moves : dict
         For each region of a finger, the joint that moves its link and closes the finger.
     """
 
     phalanges: int = 0
+    fingers: set[str] = field(default_factory=set)
+    touched_s: float = -math.inf
     moves: dict[str, int] = field(default_factory=dict)
 
 
@@ -96,9 +106,15 @@ class HandToHand(Reflex):
         steps, why = sensed.steps(), ""
         state.phalanges = 0
         at_palm = any(map(self._is_too_much, sensed.of_finger("")))
+        touching = {finger for finger in sensed.hand.fingers if any(one.in_contact for one in sensed.of_finger(finger))}
+        if touching:
+            state.fingers |= touching
+            state.touched_s = sensed.time_s
+        is_there = sensed.time_s - state.touched_s <= config.hand_to_hand_search_s
         for finger in sensed.hand.fingers:
             regions = sensed.of_finger(finger)
-            if not any(one.in_contact for one in regions):
+            # One that has lost all touch looks for it, too, unless what was held has gone.
+            if finger not in state.fingers or not is_there:
                 continue
             closing = sensed.closing(finger)
             if at_palm or any(map(self._is_too_much, regions)):

@@ -289,6 +289,24 @@ def test_the_comfort_limit_holds_while_the_hand_closes_and_nothing_is_shared_bef
     assert not wish.steps[joints_of("index")].any()
 
 
+def test_a_finger_that_has_lost_all_touch_looks_for_it_until_what_was_held_is_gone() -> None:
+    reflex = HandToHand(HandToHandConfig(hand_to_hand_search_steps=0.3, hand_to_hand_search_s=0.5))
+    held = region("index_medial", 0.8)
+    reflex.step(sensed(held, region("ring_medial", 0.8), time_s=1.0))
+    # The index finger still touches, for longer than a search lasts.
+    for time_s in (1.1, 2.0):
+        wish = reflex.step(sensed(held, time_s=time_s))
+        assert wish is not None
+        assert (wish.steps[joints_of("ring")] > 0.0).all()
+        # It never touched.
+        assert not wish.steps[joints_of("middle")].any()
+    wish = reflex.step(sensed(time_s=2.4))
+    assert wish is not None
+    assert (wish.steps[joints_of("ring")] > 0.0).all()
+    assert (wish.steps[joints_of("index")] > 0.0).all()
+    assert reflex.step(sensed(time_s=2.6)) is None
+
+
 # --- all of them
 
 
