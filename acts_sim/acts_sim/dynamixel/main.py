@@ -23,7 +23,7 @@ from acts_sim.dynamixel.faults import Faults
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import Motor
 from acts_sim.dynamixel.port import BusPort
-from acts_sim.shared import add_settings, own_words, settings_from
+from acts_sim.shared import FileClaim, add_settings, own_words, settings_from
 
 _STEP_S = 0.002
 
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
     Raises
     ------
     ActsError
-        When the port or the control socket cannot be made.
+        When the port or the control socket cannot be made, or another process uses it.
     """
     scheduling = settings_from(options, RealtimeConfig)
     motors = [Motor(MODELS[options.model], number, options.return_delay) for number in range(options.motors)]
@@ -67,6 +67,8 @@ def run(options: argparse.Namespace, signals: StopSignals) -> None:
     limits = [(math.pi - options.range_rad, math.pi + options.range_rad)] * len(motors)
     joints = FreeJoints(motors, limits)
     with contextlib.ExitStack() as stack:
+        if options.link is not None:
+            stack.enter_context(contextlib.closing(FileClaim(options.link)))
         port = stack.enter_context(
             contextlib.closing(BusPort(bus, joints.step, _STEP_S, options.link, baud=options.baud))
         )

@@ -9,6 +9,8 @@ import json
 import os
 import signal
 import socket
+import subprocess
+import sys
 import termios
 import time
 from collections.abc import Iterator
@@ -19,7 +21,7 @@ from dynamixel_sdk import COMM_SUCCESS, GroupBulkRead, GroupSyncRead, GroupSyncW
 from motor_bus import IDS, MotorBus
 from serial import SerialException
 
-from acts_core.errors import RobotError
+from acts_core.errors import REFUSED_EXIT_CODE, RobotError
 from acts_sim.dynamixel import Bus, BusPort, ControlSocket
 
 QUIET_S = 0.3
@@ -132,6 +134,19 @@ def test_a_lost_motor_is_silent_and_takes_those_behind_it_along(rig: Rig) -> Non
 def test_a_command_that_makes_no_sense_is_answered_so(rig: Rig) -> None:
     assert rig.command("explode").startswith("error: unknown 'explode'")
     assert rig.command("lose 99").startswith("error: no motor '99'")
+
+
+@pytest.mark.parametrize("module", ["acts_sim.dynamixel.main", "acts_sim.hand.process.main"])
+def test_a_bus_leaves_the_link_of_another_alone(rig: Rig, tmp_path: Path, module: str) -> None:
+    before = rig.link.readlink()
+    command = [sys.executable, "-m", "acts_ros.executables.program", module, "--link", str(rig.link)]
+    if "hand" in module:
+        command += ["--field-ring", str(tmp_path / "field.ring"), "--truth-ring", str(tmp_path / "truth.ring")]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=50.0, check=False)
+    assert ended.returncode == REFUSED_EXIT_CODE
+    assert f"{rig.link} is in use by process {rig.process.pid}" in ended.stderr
+    assert rig.link.readlink() == before
+    assert rig.packets.ping(rig.port, 0)[1] == COMM_SUCCESS
 
 
 def test_a_link_that_cannot_be_is_refused_in_words() -> None:

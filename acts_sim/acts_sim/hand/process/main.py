@@ -70,7 +70,8 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     """
     scheduling = settings_from(options, RealtimeConfig)
     with contextlib.ExitStack() as stack:
-        stack.enter_context(contextlib.closing(FileClaim(options.field_ring)))
+        for path in (options.field_ring, options.link):
+            stack.enter_context(contextlib.closing(FileClaim(path)))
         # Its kernels are compiled here where they are new, which takes long.
         with signals.interrupting():
             world = HandWorld(config)
