@@ -28,11 +28,33 @@ def message_text(message: Any) -> str:
     -------
     str
         YAML, with a newline at the end. A float32 has 7 digits. In place of what is left out of a list of more than
-        `LONGEST_LIST` elements is the text ``... 1024 in all``.
+        `LONGEST_LIST` elements is the text ``... 1024 in all``. A field that has one of the message's constants bears
+        its name as a comment: ``state: 3  # STATE_BALANCING``.
     """
-    return yaml.safe_dump(
-        _fields(message), sort_keys=False, default_flow_style=None, width=_ENDLESS, allow_unicode=True
-    )
+    fields = _fields(message)
+    text = yaml.safe_dump(fields, sort_keys=False, default_flow_style=None, width=_ENDLESS, allow_unicode=True)
+    lines = text.splitlines()
+    for field, names in _constants(message).items():
+        line = f"{field}: {fields[field]}"
+        if fields[field] in names and line in lines:
+            lines[lines.index(line)] = f"{line}  # {names[fields[field]]}"
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _constants(message: Any) -> dict[str, dict[int, str]]:
+    """Names of the constants of each field of type uint8, by their values.
+
+    A message does not say which field a constant is for. Here these are the ones that begin with the field's name, or
+    all where there is one such field, unless two of them have the same value and so cannot be for the same field.
+    """
+    constants = {name: value for name, value in vars(type(message)).items() if name.isupper() and type(value) is int}
+    fields = [name for name, kind in message.get_fields_and_field_types().items() if kind == "uint8"]
+    found = {}
+    for field in fields:
+        own = [name for name in constants if len(fields) == 1 or name.startswith(f"{field.upper()}_")]
+        names = {constants[name]: name for name in own}
+        found[field] = names if len(names) == len(own) else {}
+    return found
 
 
 def _fields(message: Any) -> dict[str, Any]:

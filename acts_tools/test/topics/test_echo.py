@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,9 +19,10 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import BatteryState, Image
+from std_msgs.msg import UInt8
 
-from acts_msgs.msg import Impact
+from acts_msgs.msg import BalanceStatus, Impact
 from acts_ros.qos import STREAM
 from acts_tools.echo.message_text import LONGEST_LIST, message_text
 from acts_tools.testing.probe import Probe
@@ -43,6 +45,35 @@ def test_a_message_is_told_field_by_field() -> None:
     assert list(told) == list(impact.get_fields_and_field_types())
     assert told["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "plate"}
     assert (told["number"], told["peak_force"], told["onset_sigma"], told["path_x"]) == (3, 0.1, 1e-5, [])
+
+
+class Drawing:
+    """As visualization_msgs/ImageMarker: constants of other fields, of which two have the same value."""
+
+    ADD, REMOVE, CIRCLE = 0, 1, 0
+    filled, points = 0, (1.0,)
+
+    def get_fields_and_field_types(self) -> dict[str, str]:
+        return {"filled": "uint8", "points": "sequence<double>"}
+
+
+@pytest.mark.parametrize(
+    ("message", "line"),
+    [
+        (BalanceStatus(state=BalanceStatus.STATE_BALANCING), "state: 3  # STATE_BALANCING"),
+        # Its constants do not bear the name of their field.
+        (Impact(kind=Impact.TAP), "kind: 2  # TAP"),
+        (BalanceStatus(state=200), "state: 200"),
+        # Of a message without nested fields, and without constants.
+        (UInt8(data=3), "{data: 3}"),
+        (Drawing(), "filled: 0"),
+        (BatteryState(power_supply_health=1), "power_supply_health: 1  # POWER_SUPPLY_HEALTH_GOOD"),
+    ],
+)
+def test_a_constant_is_told_by_its_name(message: Any, line: str) -> None:
+    text = message_text(message)
+    assert line in text.splitlines()
+    assert isinstance(yaml.safe_load(text), dict)
 
 
 def test_messages_in_messages_and_bytes_are_told() -> None:
