@@ -27,6 +27,7 @@ def draw_panel(axes: Any, panel: Panel, looks: Looks, times: Normalize) -> None:
     axes.set_ylabel(panel.y_label)
     if panel.solid:
         draw_solid(axes, panel, times)
+        _bound(axes, panel)
         return
     if panel.picture is not None:
         draw_image(axes, panel, panel.picture)
@@ -42,10 +43,20 @@ def draw_panel(axes: Any, panel: Panel, looks: Looks, times: Normalize) -> None:
         axes.set_xticks(range(1, len(panel.x_names) + 1), panel.x_names)
     if panel.picture is None:
         if panel.equal:
-            axes.set_aspect("equal", adjustable="datalim")
+            _bound(axes, panel)
+            # With limits of its own a panel is as large as these allow.
+            axes.set_aspect("equal", adjustable="datalim" if panel.x_min is None else "box")
         else:
             _limit_y(axes, panel)
             axes.set_xlim(left=panel.x_min, right=panel.x_max)
+
+
+def _bound(axes: Any, panel: Panel) -> None:
+    """The limits of a panel in the plane; where it has none, as what is drawn needs."""
+    if panel.x_min is not None or panel.x_max is not None:
+        axes.set_xlim(left=panel.x_min, right=panel.x_max)
+    if panel.y_min is not None or panel.y_max is not None:
+        axes.set_ylim(bottom=panel.y_min, top=panel.y_max)
 
 
 def _draw_curve(axes: Any, curve: Curve, panel: Panel, looks: Looks, times: Normalize) -> None:

@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,8 @@ _TOUCHES, _TOUCHES_FAST = 10, 1
 _NOISE_COUNTS = 3.0
 _OUTLINES_MAX = 8
 """Of a touch that has more, every so many are drawn."""
+
+_ROOM = 1.05
 
 _FRAMES, _ERROR = "frames with an outline", "error from the third frame on"
 
@@ -66,13 +69,15 @@ def _measure(body: str) -> Callable[[Run], list[Panel]]:
         found = run.shared(f"outlines_{body}", lambda: _measure_body(run, body))
         panels = []
         begin_ms = found["drawn"]["truth"][0][0]
+        x_min, x_max, y_min, y_max = _square_around(found["drawn"].values())
         for solid in (False, True):
             for who, title, by in (
                 ("paper", "paper's method", SAME),
                 ("ours", "ours", OURS),
                 ("truth", "truth", TRUTH),
             ):
-                panels.append(_outlines(found["drawn"][who], begin_ms, title, by, solid=solid))
+                panel = _outlines(found["drawn"][who], begin_ms, title, by, solid=solid)
+                panels.append(replace(panel, x_min=x_min, x_max=x_max, y_min=y_min, y_max=y_max))
         for number, title, y_label in (("frames", _FRAMES, "frames"), ("error", _ERROR, "mean distance [taxels]")):
             curves = []
             for who, label, by, scheme in (
@@ -89,6 +94,14 @@ def _measure(body: str) -> Callable[[Run], list[Panel]]:
         return panels
 
     return measure
+
+
+def _square_around(traced: Iterable[Sequence[tuple[float, list[float], list[float]]]]) -> tuple[float, ...]:
+    """Limits of x, and of y, with room for all of these outlines, so that they can be compared [mm]."""
+    xs, ys = zip(*((x, y) for outlines in traced for _, x, y in outlines), strict=True)
+    low, high = np.array([(min(map(min, numbers)), max(map(max, numbers))) for numbers in (xs, ys)]).T
+    middle, half = (low + high) / 2, _ROOM * max(high - low) / 2
+    return tuple(np.stack((middle - half, middle + half), axis=1).ravel().tolist())
 
 
 def _outlines(
