@@ -141,7 +141,7 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         # Who stops a hand is not told to switch its torque on.
         assert called("stop").message == "the hand is released: released by request"
         # Who has enabled a hand can move it at once.
-        assert called("enable").success
+        until(lambda: called("enable").success)
         assert called("stop").success
         until(lambda: statuses[-1].reason == "stopped by request")
         process.send_signal(signal.SIGINT)
