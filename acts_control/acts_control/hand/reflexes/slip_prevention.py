@@ -7,6 +7,10 @@ Slip is told by the regions (docs/slip.md). They look back over a window, so sli
 ceased; whether the pattern still moves is seen by its distance in the window still growing. All fingers that touch grip
 together, for one that grips alone pushes the object away. What was added is kept for a while, then taken back until a
 share of it is left, or to just above where the object last began to slip.
+
+Where weight shifts from one part of the skin to another, or a grip moves the object, a pattern moves as in a slip, but
+slowly and not far. For what is fragile, the first sign of a slip can be answered by a little of the grip
+(`slip_first_steps`), and only one that goes on by all of it.
 """
 
 from __future__ import annotations
@@ -26,6 +30,27 @@ class SlipPreventionConfig:
     )
     slip_max_added_steps: float = setting(
         11.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
+    )
+    slip_first_steps: float = setting(
+        11.0,
+        "steps that the first sign of a slip is answered with, of slip_max_added_steps; 1 for what is fragile",
+        minimum=0.0,
+        maximum=200.0,
+    )
+    slip_soon_m: float = setting(
+        1e-4,
+        "slip_max_added_steps are added where a pattern moves on by more than this within slip_soon_s [m]",
+        minimum=0.0,
+        maximum=1e-2,
+    )
+    slip_soon_s: float = setting(
+        0.013, "see slip_soon_m; a loop with a longer cycle adds them at once [s]", minimum=0.0, maximum=1.0
+    )
+    slip_far_m: float = setting(
+        6e-4, "they are also added where it has moved on by more than this [m]", minimum=0.0, maximum=1e-2
+    )
+    slip_settle_s: float = setting(
+        0.2, "a sign of a slip is a first one again when nothing has moved for longer [s]", minimum=0.0, maximum=5.0
     )
     slip_growth_m: float = setting(
         1e-5,
@@ -59,6 +84,12 @@ class SlipPreventionState:
         Of each region when it was last looked at.
     grown_s : float
         When one of them has last grown.
+    first_s : float
+        When that began, at the first sign.
+    on_m : dict
+        By how much each has grown since the first sign.
+    most : float
+        Most that may be added for the present, in steps of a cycle at 60 Hz.
     added, peak, floor : float
         Added grip now, the most of it, and where easing ends, in steps of a cycle at 60 Hz.
     is_slipping : bool
@@ -66,6 +97,9 @@ class SlipPreventionState:
 
     distance_m: dict[str, float] = field(default_factory=dict)
     grown_s: float = -1e9
+    first_s: float = -1e9
+    on_m: dict[str, float] = field(default_factory=dict)
+    most: float = 0.0
     added: float = 0.0
     peak: float = 0.0
     floor: float = 0.0
@@ -94,13 +128,18 @@ class SlipPrevention(Reflex):
                 self.events += 1
                 # It did not hold with this: easing ends above.
                 state.floor = max(state.floor, state.added)
+            if sensed.time_s - state.grown_s > config.slip_settle_s:
+                state.first_s, state.on_m = sensed.time_s, {}
+                state.most = min(state.added + config.slip_first_steps, config.slip_max_added_steps)
+            if self._goes_on(sensed):
+                state.most = config.slip_max_added_steps
             state.is_slipping = True
             state.grown_s = sensed.time_s
         elif sensed.time_s - state.grown_s > config.slip_quiet_s:
             state.is_slipping = False
         cycles = sensed.dt_s * 60.0
         if state.is_slipping:
-            steps = min(config.slip_grip_steps, (config.slip_max_added_steps - state.added) / cycles)
+            steps = min(config.slip_grip_steps, (state.most - state.added) / cycles)
             why = f"{told or 'object'} slips: grip up"
         elif state.added > self._end() and sensed.time_s - state.grown_s > config.slip_keep_s:
             steps, why = -min(config.slip_ease_steps, (state.added - self._end()) / cycles), "easing the grip"
@@ -114,6 +153,14 @@ class SlipPrevention(Reflex):
                 wanted += steps * sensed.closing(finger)
         return Wish(wanted, why, at_once=steps > 0.0)
 
+    def _goes_on(self, sensed: Sensed) -> bool:
+        config, state = self.config, self.state
+        if sensed.dt_s > config.slip_soon_s:
+            return True
+        on_m = max(state.on_m.values(), default=0.0)
+        is_soon = sensed.time_s - state.first_s <= config.slip_soon_s
+        return on_m > config.slip_far_m or (is_soon and on_m > config.slip_soon_m)
+
     def _end(self) -> float:
         return max(self.config.slip_kept_share * self.state.peak, self.state.floor)
 
@@ -122,7 +169,10 @@ class SlipPrevention(Reflex):
         state, found = self.state, ""
         for name, region in sensed.regions.items():
             distance = region.slip_m if region.slipping and region.force_n >= self.config.slip_min_force_n else 0.0
-            if distance > state.distance_m.get(name, 0.0) + self.config.slip_growth_m:
+            before = state.distance_m.get(name, 0.0)
+            if distance > before + self.config.slip_growth_m:
                 found = found or name
+                # What a region tells first has moved for some time.
+                state.on_m[name] = state.on_m.get(name, 0.0) + (distance - before if before > 0.0 else 0.0)
             state.distance_m[name] = distance
         return found

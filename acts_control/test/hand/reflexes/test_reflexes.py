@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hand_rig import DT_S, NAMES, RigidHand, joints_of, region, sensed
@@ -135,6 +138,47 @@ def test_the_grip_that_is_added_has_an_end() -> None:
     for k in range(100):
         reflex.step(sensed(slipping("index_distal", 1e-4 * (k + 1)), time_s=k * DT_S))
     assert reflex.state.added == pytest.approx(3.0)
+
+
+ANSWERS = SlipPreventionConfig(
+    slip_first_steps=1.0, slip_max_added_steps=11.0, slip_soon_m=1e-4, slip_soon_s=0.013, slip_far_m=6e-4
+)
+
+
+def added(reflex: SlipPrevention, distances_m: Sequence[float], begin_s: float = 0.0, dt_s: float = DT_S) -> float:
+    """What has been added to the grip when a pattern has moved like this, from cycle to cycle."""
+    for k, distance_m in enumerate(distances_m):
+        pressed = slipping("palm", distance_m) if distance_m else region("palm", 0.5)
+        reflex.step(replace(sensed(pressed, time_s=begin_s + k * dt_s), dt_s=dt_s))
+    return reflex.state.added
+
+
+@pytest.mark.parametrize(
+    ("distances_mm", "steps"),
+    [
+        # All that moves is told at once, however far: it may be an object that settles.
+        ([0.7, 0.7, 0.7, 0.7], 1.0),
+        ([0.3, 0.32, 0.34, 0.36, 0.38], 1.0),
+        ([0.3, 0.38, 0.46, 0.46, 0.46], 11.0),
+        # As much, but later.
+        ([0.3, 0.3, 0.3, 0.3, 0.38, 0.46, 0.46], 1.0),
+        # Slow, and far.
+        ([0.3 + 0.02 * k for k in range(40)], 11.0),
+    ],
+)
+def test_all_of_the_grip_is_for_a_slip_that_goes_on(distances_mm: list[float], steps: float) -> None:
+    assert added(SlipPrevention(ANSWERS), [1e-3 * one for one in distances_mm]) == pytest.approx(steps)
+
+
+def test_a_sign_is_a_first_one_again_after_a_while_without_motion() -> None:
+    for quiet_s, steps in ((0.1, 1.0), (0.3, 2.0)):
+        reflex = SlipPrevention(replace(ANSWERS, slip_settle_s=0.2))
+        assert added(reflex, [3e-4, 3e-4]) == pytest.approx(1.0)
+        assert added(reflex, [0.0, 3e-4, 3e-4], begin_s=quiet_s) == pytest.approx(steps)
+
+
+def test_a_loop_that_looks_again_too_late_answers_at_once() -> None:
+    assert added(SlipPrevention(ANSWERS), [3e-4], dt_s=1.0 / 60.0) == pytest.approx(11.0)
 
 
 @pytest.mark.parametrize("most", [0.1, 1.0, 3.0])
