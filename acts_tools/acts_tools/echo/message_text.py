@@ -33,12 +33,12 @@ def message_text(message: Any) -> str:
     """
     fields = _fields(message)
     text = yaml.safe_dump(fields, sort_keys=False, default_flow_style=None, width=_ENDLESS, allow_unicode=True)
-    lines = text.splitlines()
+    lines = text.split("\n")
     for field, names in _constants(message).items():
         line = f"{field}: {fields[field]}"
         if fields[field] in names and line in lines:
             lines[lines.index(line)] = f"{line}  # {names[fields[field]]}"
-    return "".join(f"{line}\n" for line in lines)
+    return "\n".join(lines)
 
 
 def _constants(message: Any) -> dict[str, dict[int, str]]:
