@@ -193,6 +193,17 @@ def test_a_robot_that_vanishes_is_told_as_lost_whatever_notices_it_first(is_pati
         robot.disconnect()
 
 
+def test_an_argument_that_the_library_refuses_is_no_lost_connection() -> None:
+    with SimulatedRobot("127.0.17.18") as simulated:
+        robot = UrRobot(UrConfig(robot_ip=simulated.host))
+        robot.connect(lambda: True)
+        # The settings allow no such lookahead time.
+        robot._send("servoJ", list(ur5e.LEVEL_Q_RAD), 0.0, 0.0, 0.002, 9.0, 300.0)
+        with pytest.raises(RobotError, match=r"127\.0\.17\.18: servoJ: "):
+            wait_for(lambda: not robot.is_busy, "the refusal")
+        robot.disconnect()
+
+
 def test_a_controller_that_stalls_while_motion_ends_is_lost_too() -> None:
     with ExitStack() as stack:
         rig = Rig("127.0.17.12", stack)

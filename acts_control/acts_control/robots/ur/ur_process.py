@@ -70,8 +70,11 @@ class _Connection:
             result = (own.get(name) or getattr(self._control, name))(*arguments)
         except ImportError as error:
             self._tell("failed", f"ur_rtde cannot be imported ({error}); install it with: pip install ur-rtde")
-        except (RuntimeError, ValueError) as error:
-            # Once there is a connection, the library raises only where that has ended.
+        except ValueError as error:
+            # An argument that the library does not allow.
+            self._tell("failed", f"{name}: {str(error).strip()}")
+        except RuntimeError as error:
+            # Once there is a connection, it raises this only where that has ended.
             lost = "" if name in own else "the connection is lost: "
             self._tell("failed", f"{lost}{name}: {str(error).strip()}")
         else:
