@@ -32,8 +32,8 @@ class SlipPreventionConfig:
         11.0, "most that is added to the grip, in steps of a cycle at 60 Hz", minimum=0.1, maximum=200.0
     )
     slip_first_steps: float = setting(
-        11.0,
-        "steps that the first sign of a slip is answered with, of slip_max_added_steps; 1 for what is fragile",
+        200.0,
+        "steps that the first sign of a slip is answered with, up to slip_max_added_steps; 1 for what is fragile",
         minimum=0.0,
         maximum=200.0,
     )

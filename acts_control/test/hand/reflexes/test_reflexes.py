@@ -177,6 +177,11 @@ def test_a_sign_is_a_first_one_again_after_a_while_without_motion() -> None:
         assert added(reflex, [0.0, 3e-4, 3e-4], begin_s=quiet_s) == pytest.approx(steps)
 
 
+def test_without_a_first_answer_of_its_own_a_slip_gets_all_of_the_grip_at_once() -> None:
+    reflex = SlipPrevention(SlipPreventionConfig(slip_max_added_steps=20.0, slip_grip_steps=50.0))
+    assert added(reflex, [3e-4, 3e-4]) == pytest.approx(20.0)
+
+
 def test_a_loop_that_looks_again_too_late_answers_at_once() -> None:
     assert added(SlipPrevention(ANSWERS), [3e-4], dt_s=1.0 / 60.0) == pytest.approx(11.0)
 
