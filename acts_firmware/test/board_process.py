@@ -117,6 +117,15 @@ class BoardProcess:
                     return frame
         raise AssertionError(f"no such frame within {DEADLINE_S} s")
 
+    def stand_still(self, for_s: float) -> int:
+        """Stop the process and let it go on; returns when that was, CLOCK_MONOTONIC [ns]."""
+        self.process.send_signal(signal.SIGSTOP)
+        due_ns = time.monotonic_ns() + int(for_s * 1e9)
+        while time.monotonic_ns() < due_ns:
+            time.sleep(0.01)
+        self.process.send_signal(signal.SIGCONT)
+        return due_ns
+
     def terminate(self, number: signal.Signals = signal.SIGTERM) -> int:
         self.process.send_signal(number)
         return self.process.wait(DEADLINE_S)

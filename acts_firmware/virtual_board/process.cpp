@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "acts_firmware/board/pacer.hpp"
 #include "board/published_recovery.hpp"
 #include "board/published_timing.hpp"
 #include "option_error.hpp"
@@ -18,8 +19,10 @@ namespace acts {
 
 namespace {
 
-constexpr std::int64_t kCatchUpNs = 100'000'000;  // later than this, frames are skipped
-constexpr std::int64_t kNapNs = 50'000'000;       // the terminal is looked after at least this often
+// Later than this, frames are skipped, as on a Teensy. Up to then the board measures afterwards what the field was, as
+// if it had not stood still: a board of its own does not, where a busy host's core does. The ring holds more than this.
+constexpr std::int64_t kCatchUpNs = std::int64_t{FramePacer::kCatchUpUs} * 1000;
+constexpr std::int64_t kNapNs = 50'000'000;  // the terminal is looked after at least this often
 
 // A terminal's Ctrl-C and `ros2 launch` signal all processes together. The host is to close its port before the board
 // is gone, and `ros2 launch` reports code 255 for a process that ends while it sends a signal itself.

@@ -67,7 +67,8 @@ def expected(
     )
 
 
-def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path) -> None:
+@pytest.mark.parametrize("stands_still", [False, True])
+def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path, stands_still: bool) -> None:
     rng = np.random.default_rng(2)
     ring = tmp_path / "field.ring"
     # A world that knows the next twelve seconds: every 4 ms another field, hundreds of counts apart.
@@ -79,6 +80,11 @@ def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path) -> None:
         with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
             board.open_port()
             frames = board.read_frames(150)
+            if stands_still:
+                # What it then makes up for is what it would have measured meanwhile.
+                board.stand_still(0.12)
+                frames += board.read_frames(150)
+                assert frames[-1].overruns == frames[0].overruns
             known = [frame for frame in frames if measured_at_ns(board, frame)[-1] < times_ns[-1]]
             assert known
             for frame in known:

@@ -70,7 +70,7 @@ class TimedRingWriter:
     width : int
         Number of values in a slot.
     slots : int
-        Number of slots, at least 2; at 1 kHz, 128 slots hold an eighth of a second.
+        Number of slots, at least 2; at 500 Hz, 256 slots hold half a second.
 
     Raises
     ------
@@ -80,7 +80,7 @@ class TimedRingWriter:
         When the file cannot be created, or `width` or `slots` is too small.
     """
 
-    def __init__(self, path: Path, width: int, slots: int = 128) -> None:
+    def __init__(self, path: Path, width: int, slots: int = 256) -> None:
         if width < 1 or slots < 2:
             raise ActsError(
                 f"{path}: a ring of {slots} slots of {width} values; allowed are 2 slots and 1 value or more"

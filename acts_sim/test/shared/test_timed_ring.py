@@ -232,7 +232,7 @@ def test_a_ring_that_cannot_be_made_leaves_nothing_behind(path: Path, monkeypatc
 
     monkeypatch.setattr(os, "posix_fallocate", full)
     with pytest.raises(ActsError, match=r"No space left on device.*room for 5184 bytes"):
-        TimedRingWriter(path.with_name("other.ring"), 3)
+        TimedRingWriter(path.with_name("other.ring"), 3, slots=128)
     assert list(path.parent.iterdir()) == [path]
 
 

@@ -14,8 +14,7 @@ namespace acts {
 // must be asked more often than that.
 class FramePacer {
  public:
-  // Held up for longer than this, frames count as skipped. The virtual board has a limit of its own: its field is kept
-  // for less.
+  // Held up for longer than this, frames count as skipped.
   static constexpr std::uint32_t kCatchUpUs = 250000;
 
   // Ask in every round of the loop: that the board was free is known by this.
