@@ -247,6 +247,14 @@ def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_pat
         first.read_frames(3)
 
 
+@pytest.mark.parametrize("content", [b"mine\n", b"12 of mine\n", b"1" * 25])
+def test_a_file_that_is_no_lock_is_refused_and_stays_as_it_is(tmp_path: Path, content: bytes) -> None:
+    other = tmp_path / "poetry.lock"
+    other.write_bytes(content)
+    assert f"{other} is no lock of a file, and would be lost" in refusal(tmp_path / "poetry", 2)
+    assert other.read_bytes() == content
+
+
 def test_the_links_folder_is_made_for_its_user_alone(tmp_path: Path) -> None:
     with BoardProcess(tmp_path) as board:
         assert board.link.parent.stat().st_mode & 0o777 == 0o700

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -32,6 +33,7 @@ constexpr const char* kOther =
     "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only";
 constexpr mode_t kOwnerOnly = 0700;
 constexpr std::size_t kLongestCommand = 100;
+constexpr std::size_t kLongestLock = 24;  // a process id and a newline
 // Programs of a launch that was killed end shortly after it.
 constexpr auto kWait = std::chrono::seconds(1);
 
@@ -99,6 +101,10 @@ Claim::Claim(const std::string& path) : lock_path_(path + ".lock") {
   if (!lock()) {
     refuse<OptionError>(path + " is in use by " + holder() + "; end that program, or ");
   }
+  if (!is_lock()) {
+    close(file_);
+    refuse<OptionError>(lock_path_ + " is no lock of a file, and would be lost; ");
+  }
   const std::string number = std::to_string(getpid()) + "\n";
   if (ftruncate(file_, 0) != 0 || pwrite(file_, number.data(), number.size(), 0) < 0) {
     refuse(lock_path_ + " cannot be written (" + std::strerror(errno) + "); ");
@@ -134,6 +140,13 @@ bool Claim::lock() {
     }
     close(file_);  // the one before us has just given it up, and the file with it
   }
+}
+
+bool Claim::is_lock() const {
+  std::array<char, kLongestLock + 1> content{};
+  const ssize_t length = pread(file_, content.data(), content.size(), 0);
+  return length >= 0 && static_cast<std::size_t>(length) <= kLongestLock &&
+         std::all_of(content.begin(), content.begin() + length, [](char c) { return c == '\n' || (c >= '0' && c <= '9'); });
 }
 
 std::string Claim::holder() const {

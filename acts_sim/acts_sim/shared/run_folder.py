@@ -21,6 +21,8 @@ from acts_core.runtime import process_name
 
 # Programs of a launch that was killed end shortly after it.
 _WAIT_S = 1.0
+# Of a lock [bytes]: a process id and a newline.
+_LONGEST_LOCK = 24
 _OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
 
 
@@ -69,7 +71,7 @@ class FileClaim:
     ------
     SettingsError
         Another process uses it, and still after `_WAIT_S` (the message names it); the folder is not allowed
-        (`make_private`); the path is empty.
+        (`make_private`); the path is empty; the file with the suffix is something else than such a lock.
     ActsError
         The lock cannot be made, as on a full disk.
     """
@@ -88,6 +90,9 @@ class FileClaim:
         except OSError as error:
             raise ActsError(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
         try:
+            if not _is_lock(os.pread(self._fd, _LONGEST_LOCK + 1, 0)):
+                os.close(self._fd)
+                raise SettingsError(f"{self._path} is no lock of a file, and would be lost; {_OTHER}")
             os.ftruncate(self._fd, 0)
             os.pwrite(self._fd, f"{os.getpid()}\n".encode(), 0)
         except OSError as error:
@@ -127,6 +132,11 @@ class FileClaim:
             return process_name(int(self._path.read_text()))
         except (OSError, ValueError):
             return process_name(0)
+
+
+def _is_lock(content: bytes) -> bool:
+    """Whether it is what a process, perhaps one that was killed meanwhile, writes to its lock."""
+    return len(content) <= _LONGEST_LOCK and (not content or content.strip().isdigit())
 
 
 def _user(uid: int) -> str:

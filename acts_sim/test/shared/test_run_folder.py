@@ -96,6 +96,15 @@ def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_gi
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("content", [b"mine\n", b"12 of mine\n", b"1" * 25])
+def test_a_file_that_is_no_lock_is_refused_and_stays_as_it_is(tmp_path: Path, content: bytes) -> None:
+    other = tmp_path / "poetry.lock"
+    other.write_bytes(content)
+    with pytest.raises(SettingsError, match=rf"{other} is no lock of a file, and would be lost"):
+        FileClaim(tmp_path / "poetry")
+    assert other.read_bytes() == content
+
+
 def test_a_killed_process_has_no_claim_any_more(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
     command = [sys.executable, "-c", HOLDER, str(ring)]
