@@ -86,9 +86,9 @@ class SkinProcesses:
             return [self._process(skin, "acts_firmware", "virtual_board", *words)]
         ring = f"{folder}/field.ring"
         world: dict[str, object] = {"field_ring": ring, "joint_ring": "none", "seed": number + 1}
-        world.update(rows=driver.rows, cols=driver.cols)
-        if parameters.reconstruction.pitch_m:
-            world["pitch_m"] = parameters.reconstruction.pitch_m
+        shown = parameters.reconstruction
+        world.update(rows=driver.rows, cols=driver.cols, layout=shown.layout)
+        world.update(pitch_m=shown.pitch_m, row_pitch_m=shown.row_pitch_m)
         pushes = packages.share("acts_config", self._environment) / "params" / "tactile.yaml"
         # Not as ROS parameters, which are parsed as YAML: a path might be read as a number.
         given = [word for name, value in world.items() for word in ("--set", f"ball_world.{name}={value}")]

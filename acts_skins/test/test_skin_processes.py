@@ -221,6 +221,22 @@ def test_without_simulation_a_skin_is_one_process_at_its_port(tmp_path: Path) ->
     assert commands["right/tactile"].endswith("--ros-args -r __ns:=/right")
 
 
+def test_the_ball_rolls_on_the_skins_own_layout(tmp_path: Path) -> None:
+    text = """
+skins:
+  sole: {layout: insole, pitch_m: 0.007, row_pitch_m: 0.009, pose: {parent: base_link}}
+  plate: {rows: 16, cols: 8, pose: {parent: base_link}}
+"""
+    commands = plan(skins_yaml(tmp_path, text), simulated=True)
+    worlds = {name: _settings_of(commands[f"{name}/ball_world"], "ball_world") for name in ("sole", "plate")}
+    assert {"layout": "insole", "pitch_m": "0.007", "row_pitch_m": "0.009"}.items() <= worlds["sole"].items()
+    assert {"rows": "16", "cols": "8", "layout": "square", "pitch_m": "0.0"}.items() <= worlds["plate"].items()
+
+
+def _settings_of(command: str, node: str) -> dict[str, str]:
+    return dict(re.findall(rf"--set {node}\.(\w+)=(\S*)", command))
+
+
 def test_a_recording_stands_in_for_the_ball_and_a_replay_for_the_board(tmp_path: Path) -> None:
     (tmp_path / "press.npy").touch()
     (tmp_path / "touch.npz").touch()
