@@ -240,6 +240,17 @@ def test_a_skin_in_the_root_namespace_of_a_bag_is_shown_without_its_baseline(
     assert highest_at(source, 12) < 30
 
 
+def test_a_bag_counts_from_its_first_frame_where_other_topics_began_earlier(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The baseline 30 s before the first of five frames, by the recorder's clock.
+    stamps_s = iter([1000, *range(1030, 1035)])
+    monkeypatch.setattr(BagWriter, "_stamp_ns", lambda _: next(stamps_s) * 10**9)
+    recording = open_recording(ReplayOptions(write_bag(tmp_path / "bag", {5: [300] * 16})))
+    assert recording.length_us == 4_000_000
+    assert [frame.sequence for frame in recording.frames(2_000_000)] == [12, 13, 14]
+
+
 def test_a_bag_without_a_baseline_is_shown_as_it_was_measured(tmp_path: Path) -> None:
     source, _ = open_recorded(write_bag(tmp_path / "bag", {}), [], "square")
     assert highest_at(source, 14) == pytest.approx(300, abs=30)

@@ -54,9 +54,13 @@ class BagRecording:
                 bag.check_definition(self._topic)
             except RecordingError as error:
                 raise RecordingError(f"the bag '{path}': {error}") from error
-            self._begin_ns, self._end_ns = bag.span_ns([self._topic])
-        if next(self.frames(), None) is None:
+            _, self._end_ns = bag.span_ns([self._topic])
+            first = next(bag.messages([self._topic]), None)
+        if first is None:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
+        # Of the topic, not of the bag, in which others may have begun before it.
+        self._begin_ns = first[1]
+        next(self.frames())
 
     @property
     def topic(self) -> str:
