@@ -117,6 +117,20 @@ def test_a_head_is_a_page_without_its_body(path: str, status: int, bench: Bench)
     assert body == b""
 
 
+def test_a_skin_that_nobody_describes_is_of_the_size_of_its_image(bench: Bench) -> None:
+    def described() -> tuple[int, int]:
+        with bench.connect() as client:
+            header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        return header["rows"], header["cols"]
+
+    bench.show(3)
+    assert described() == (64, 64)
+    # What is told counts, whatever comes then.
+    bench.server.show_shape("/plate", SkinShape(rows=32, cols=16))
+    bench.show(4)
+    assert described() == (32, 16)
+
+
 def test_a_page_gets_what_the_skin_is_like_and_what_is_newest(bench: Bench) -> None:
     bench.server.show_shape("/plate", SkinShape(rows=64, cols=64))
     for value in range(5):

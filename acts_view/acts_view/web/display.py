@@ -28,9 +28,15 @@ class _Skin:
         self._name = name
         self._heard_s: float | None = None
         self._made: tuple[tuple[int, Place, float | None], bytes, Place] | None = None
-        self.describe(SkinShape())
+        self._is_told = False
+        self._describe(SkinShape())
 
     def describe(self, shape: SkinShape) -> None:
+        """Take what the skin is like."""
+        self._is_told = True
+        self._describe(shape)
+
+    def _describe(self, shape: SkinShape) -> None:
         if shape != self.shape:
             self.shape = shape
             self.description = encode(describe_skin(self._name, shape))
@@ -43,6 +49,9 @@ class _Skin:
         if samples or frame.image is not self.frame.image:
             # A picture that is taken away is as if nothing had come.
             self._heard_s = time.monotonic() if samples or frame.image is not None else None
+        if not self._is_told and frame.image is not None:
+            # As of a bag that is played without the node that knows: of the size of its image.
+            self._describe(SkinShape(rows=frame.image.shape[0], cols=frame.image.shape[1]))
         self.frame = frame
         self.frames += 1
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -141,6 +142,20 @@ def test_what_is_shown_can_be_saved(
     times_s = [float(row["time_s"]) for row in tables["plots"]]
     assert times_s == sorted(times_s)
     assert abs(times_s[-1] - time.time()) < 60.0
+
+
+def test_an_image_of_another_size_than_the_skins_is_told_and_gives_no_table(
+    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    small = np.full((16, 16), 300, np.uint16)
+    page = open_page(play(change=lambda frame: replace(frame, image=small)))
+    told = "not shown: an image of 16 × 16 taxels, of a skin that has 32 × 32"
+    expect(page.locator(".lacks")).to_have_text(told)
+    names: list[str] = []
+    page.on("download", lambda download: names.append(download.suggested_filename))
+    page.click("[data-save=taxels]")
+    contacts = saved(page, "contacts", tmp_path)
+    assert names == [contacts.name]
 
 
 def test_the_image_is_shown_in_newtons(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:

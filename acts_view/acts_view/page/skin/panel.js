@@ -102,7 +102,7 @@ export class Panel {
     const size = shape.patches.length > 1 ? `${shape.patches.length} patches` : `${width_mm} × ${height_mm} mm`;
     const layout = shape.layout === "square" ? "" : `${shape.layout.split("/").pop().replace(/\.ya?ml$/, "").replaceAll("_", " ")} · `;
     this.find(".shape").textContent = `${layout}${shape.rows} × ${shape.cols} taxels · ${size}`;
-    this.find(".lacks").textContent = shape.note;
+    setText(this.find(".lacks"), this.#lacks);
     // The middle of a hand's fingers is nowhere.
     for (const key of ["x", "y"]) this.find(`[data-of=${key}]`).hidden = shape.patches.length > 1;
     this.view.setShape(shape);
@@ -190,11 +190,20 @@ export class Panel {
   #showFigures(now_ms) {
     if (!this.message) return;
     this.numbers_ms = now_ms;
+    if (this.shape) setText(this.find(".lacks"), this.#lacks);
     this.#showNumbers();
     this.#showContacts();
     this.objects.show(this.message.object);
     this.ball.show(this.message.ball);
     this.regions.show(this.message.regions, this.message.hand);
+  }
+
+  /** What cannot be shown of the skin, in words. */
+  get #lacks() {
+    const { rows, cols, note } = this.shape;
+    const [high, wide] = this.message?.arrays.image?.shape ?? [rows, cols];
+    const fits = high === rows && wide === cols;
+    return fits ? note : `not shown: an image of ${high} × ${wide} taxels, of a skin that has ${rows} × ${cols}`;
   }
 
   #drawSkin() {

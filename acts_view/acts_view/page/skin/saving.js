@@ -36,6 +36,8 @@ export function savePicture(layers, name, stamp_s, scale) {
 /** A row for each taxel, of a message and the shape of its skin. */
 export function saveTaxels(name, shape, message) {
   const { image, confidence, age } = message.arrays;
+  // Of an image of another size the rows and columns would be wrong.
+  if (image && (image.shape[0] !== shape.rows || image.shape[1] !== shape.cols)) return;
   const rows = [];
   for (let place = 0; image && place < image.data.length; place += 1) {
     const counts = image.data[place];
