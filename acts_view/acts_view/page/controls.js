@@ -87,10 +87,16 @@ export class Controls {
     refused.className = "refused";
     refused.dataset.refused = name;
     refused.setAttribute("role", "status");
-    field.onchange = () => {
+    // What is being typed stays as it is until it has been answered.
+    field.oninput = () => { field.dataset.typed = ""; };
+    field.onblur = () => { delete field.dataset.typed; };
+    field.onchange = async () => {
+      const { value: text } = field;
       const value = name === "scheme" ? field.value : field.valueAsNumber;
       refused.textContent = name === "scheme" ? "" : refusal(value, least, most);
-      if (!refused.textContent) this.#ask(`${title}, ${nameOf(of)}`, "set", { skin: of, name, value });
+      if (refused.textContent) return;
+      await this.#ask(`${title}, ${nameOf(of)}`, "set", { skin: of, name, value });
+      if (field.value === text) delete field.dataset.typed;
     };
     label.append(field);
     const both = document.createElement("span");
@@ -103,7 +109,7 @@ export class Controls {
     const group = [...this.groups.children].find((one) => one.dataset.of === of);
     for (const [name, value] of Object.entries(values)) {
       const field = group?.querySelector(`[data-name=${name}]`);
-      if (field && document.activeElement !== field) field.value = value;
+      if (field && !("typed" in field.dataset)) field.value = value;
     }
   }
 

@@ -89,6 +89,28 @@ def test_what_one_is_about_to_press_or_types_stays_where_nodes_come_and_go(
     expect(page.locator("#controls [data-do=calibrate]")).to_be_focused()
 
 
+@pytest.mark.parametrize(("name", "given", "real"), [("m", "60", "55"), ("scheme", "raster", "tracking")])
+def test_what_was_not_obeyed_does_not_stay_in_its_field_though_one_is_still_in_it(
+    name: str, given: str, real: str, play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "scheme": "tracking"}}}
+    page = open_page(player)
+    field = page.locator(f"#controls [data-name={name}]")
+    expect(field).to_have_value(real)
+    field.focus()
+    if name == "scheme":
+        field.select_option(given)
+    else:
+        page.keyboard.press("ControlOrMeta+A")
+        page.keyboard.type(given)
+        page.keyboard.press("Enter")
+    # This server refuses everything.
+    expect(page.locator("#controls > .answer")).to_contain_text(READ_ONLY)
+    expect(field).to_be_focused()
+    expect(field).to_have_value(real)
+
+
 def test_the_limits_are_those_of_the_server(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
     player = play()
     player.status |= {"offers": [["set", "/plate"]]}
