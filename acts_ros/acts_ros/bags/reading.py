@@ -157,6 +157,9 @@ def open_bag(path: Path) -> Iterator[Bag]:
 def _check_files(path: Path) -> None:
     """Refuse files that are not regular or too large, and what unpacks to more than is allowed."""
     for file in path.iterdir() if path.is_dir() else [path]:
+        # What else lies in the folder is not read.
+        if file.is_dir() and file.suffix not in SUFFIXES:
+            continue
         size = require_regular(file, error=RecordingError)
         if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:
             raise RecordingError(f"{file}: {size / 1e6:.1f} MB; allowed are {TEXT_BYTES_MAX / 1e6:.1f} MB")
@@ -181,7 +184,7 @@ def _check_chunks(file: Path) -> None:
 
 def _check_space(path: Path) -> None:
     """Refuse files that are compressed as a whole, and do not fit unpacked where temporary files are."""
-    packed = [file for file in path.iterdir() if file.suffix == ".zstd"] if path.is_dir() else []
+    packed = [file for file in path.iterdir() if file.suffix == ".zstd" and file.is_file()] if path.is_dir() else []
     if not packed or not (path / "metadata.yaml").exists():
         return
     folder = tempfile.gettempdir()

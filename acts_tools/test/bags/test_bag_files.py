@@ -246,6 +246,16 @@ def test_files_without_an_end_or_a_beginning_are_refused(tmp_path: Path) -> None
         read(tmp_path / "bag")
 
 
+def test_what_else_lies_in_the_folder_of_a_bag_is_passed_over(tmp_path: Path) -> None:
+    messages = write_bag(tmp_path / "bag", 5)
+    for name in ("table", "packed.zstd"):
+        (tmp_path / "bag" / name).mkdir()
+    assert read(tmp_path / "bag") == messages
+    (tmp_path / "bag/more.mcap").mkdir()
+    with pytest.raises(RecordingError, match=r"more.mcap: not a regular file"):
+        read(tmp_path / "bag")
+
+
 def test_a_chunk_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
     with Writer(tmp_path / "bomb", version=8, storage_plugin=StoragePlugin.MCAP) as writer:
         topic = writer.add_connection("/word", "std_msgs/msg/String", msgdef="string data", rihs01="RIHS01_0")
