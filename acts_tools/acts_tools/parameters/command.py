@@ -115,16 +115,32 @@ def _typed(descriptor: ParameterDescriptor, text: str) -> bool | int | float | s
 
     kind = descriptor.type
     if kind == ParameterType.PARAMETER_STRING:
-        return text
+        return _utf8(descriptor.name, text)
     try:
         if kind == ParameterType.PARAMETER_BOOL:
             return {"true": True, "false": False}[text.lower()]
         if kind == ParameterType.PARAMETER_INTEGER:
-            return int(text)
+            return _integer(text)
         if kind == ParameterType.PARAMETER_DOUBLE:
             return float(text)
     except (KeyError, ValueError) as error:
-        kinds = {ParameterType.PARAMETER_BOOL: "true or false", ParameterType.PARAMETER_INTEGER: "a whole number"}
+        kinds = {ParameterType.PARAMETER_BOOL: "true or false", ParameterType.PARAMETER_INTEGER: "a whole number of 64 bits"}
         needed = kinds.get(kind, "a number")
         raise SettingsError(f"{descriptor.name} = '{text}': needed is {needed}") from error
     raise SettingsError(f"{descriptor.name} is neither a number, text, nor true or false: set it in a params file")
+
+
+def _utf8(name: str, text: str) -> str:
+    """The text, if a message can hold it: bytes of the command line that are no UTF-8 cannot be sent."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise SettingsError(f"{name} = {text!r}: needed is text in UTF-8") from error
+    return text
+
+
+def _integer(text: str) -> int:
+    value = int(text)
+    if not -(2**63) <= value < 2**63:
+        raise ValueError(text)
+    return value

@@ -56,6 +56,8 @@ def test_parameters_are_shown_and_set(node: Node, capsys: pytest.CaptureFixture[
         (["kpp"], "/plate/gains has no parameter kpp; `acts param /plate/gains` lists those it has"),
         (["kp=high"], "kp = 'high': needed is a number"),
         (["steps=1.5"], "steps = '1.5': needed is a whole number"),
+        (["steps=9223372036854775808"], "steps = '9223372036854775808': needed is a whole number of 64 bits"),
+        (["robot=\udcff"], "robot = '\\udcff': needed is text in UTF-8"),
         (["is_on=1"], "is_on = '1': needed is true or false"),
         (["joints=1"], "joints is neither a number, text, nor true or false: set it in a params file"),
         (["kp=1", "kp=2"], "a parameter is given twice"),
