@@ -79,13 +79,17 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
-    bag = BagWriter(path, f"acts record {__version__}")
-    with StopFlag() as stop, command_node("acts_recorder") as (node, executor):
+    with (
+        StopFlag() as stop,
+        command_node("acts_recorder") as (node, executor),
+        # Made when ROS has started, so that nothing is left where it cannot; closed before ROS is shut down, so that it
+        # is complete if that fails.
+        closing(BagWriter(path, f"acts record {__version__}")) as bag,
+    ):
         recorder = Recorder(node, bag, topics, _say)
         _say(f"recording to {path}, Ctrl-C ends it")
         started_s = time.monotonic()
-        # Close the bag before ROS is shut down, so that it is complete if that fails.
-        with closing(bag), closing(recorder):
+        with closing(recorder):
             while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
                 recorder.discover()
                 spin_for(executor, _TURN_S)

@@ -221,6 +221,14 @@ def test_wrong_words_are_refused_in_one_line(tmp_path: Path, words: list[str], m
     assert message in output
 
 
+def test_a_recording_that_cannot_begin_leaves_nothing_behind(tmp_path: Path) -> None:
+    with acts("record", "-o", str(tmp_path / "bag"), "-a", domain_id=300) as process:
+        output, _ = process.communicate(timeout=TIMEOUT_S)
+    assert process.returncode == 1
+    assert "ROS_DOMAIN_ID" in output
+    assert not (tmp_path / "bag").exists()
+
+
 @pytest.fixture
 def probe() -> Iterator[Probe]:
     with Probe(87) as made:
