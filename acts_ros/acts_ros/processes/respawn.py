@@ -12,6 +12,9 @@ LONGEST_WAIT_S = 5.0
 """Upper limit of the doubled wait [s]."""
 
 
+_LEAST_DOUBLED_S = 0.05
+
+
 class RespawnWait:
     """Waits before the restarts of one process: exponential backoff while it fails early.
 
@@ -31,5 +34,5 @@ class RespawnWait:
         if self._last_s is None or ran_s > SOON_S:
             self._last_s = self._first_s
         else:
-            self._last_s = min(2.0 * self._last_s, max(self._first_s, LONGEST_WAIT_S))
+            self._last_s = min(2.0 * max(self._last_s, _LEAST_DOUBLED_S), max(self._first_s, LONGEST_WAIT_S))
         return self._last_s

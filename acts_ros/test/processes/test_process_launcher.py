@@ -176,6 +176,13 @@ def test_waits_double_while_a_process_cannot_live_and_are_short_again_once_it_ha
     assert wait.next_s(0.5) == 0.2
 
 
+def test_waits_double_also_where_none_was_asked_for() -> None:
+    wait = RespawnWait(0.0)
+    waits = [wait.next_s(0.5) for _ in range(20)]
+    assert waits[:4] == [0.0, 0.1, 0.2, 0.4]
+    assert waits[-1] == LONGEST_WAIT_S
+
+
 def test_a_wait_that_was_asked_for_is_never_made_shorter() -> None:
     wait = RespawnWait(3 * LONGEST_WAIT_S)
     assert {wait.next_s(0.5) for _ in range(5)} == {3 * LONGEST_WAIT_S}
