@@ -18,7 +18,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import Response, TrackedBlob
 from acts_recon.contacts import BlobConfig
 from acts_recon.contacts.blob_motion_kernels import (
-    ACCELERATION_M_S2,
+    ACCELERATION_DENSITY_M2_S3,
     FIRST_SPEED_M_S,
     OFFSET_GAIN,
     OFFSET_RATE_DECAY_S,
@@ -162,7 +162,7 @@ class BlobTrackerReference:
                 other.share = min(other.share / max(1 - track.share, 1e-3), 1.0)
 
     def _predict(self, time_s: float, dt_s: float) -> None:
-        gained = (ACCELERATION_M_S2 * dt_s) ** 2
+        gained = ACCELERATION_DENSITY_M2_S3 * dt_s
         for track in self._tracks():
             track.blob = None
             if track.state == AWAY and time_s - track.seen_s > self._config.bridge_s:
@@ -176,11 +176,12 @@ class BlobTrackerReference:
         for track in self._in_state(ACTIVE, AWAY):
             assert track.position is not None
             if dt_s > PAUSE_S:
-                track.velocity = np.zeros(2)
+                track.velocity, track.covariance = np.zeros(2), np.zeros(2)
+                track.velocity_var = np.full(2, FIRST_SPEED_M_S**2)
             track.position = track.position + track.velocity * dt_s
-            # With the acceleration constant in between, and unknown.
+            # With white acceleration in between.
             track.position_var = (
-                track.position_var + 2 * dt_s * track.covariance + dt_s**2 * track.velocity_var + gained * dt_s**2 / 4
+                track.position_var + 2 * dt_s * track.covariance + dt_s**2 * track.velocity_var + gained * dt_s**2 / 3
             )
             track.covariance = track.covariance + dt_s * track.velocity_var + gained * dt_s / 2
             track.velocity_var = track.velocity_var + gained

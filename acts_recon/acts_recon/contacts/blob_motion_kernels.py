@@ -18,10 +18,11 @@ from acts_core.kernels import kernel
 from acts_recon.contacts.blob_merge_kernels import count_merged, leave
 from acts_recon.contacts.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
 
-# Process noise: standard deviation of the acceleration; and of the velocity of a new track.
-ACCELERATION_M_S2 = 20.0
+# Process noise: spectral density of the acceleration, that is the variance by which a velocity grows per second; and
+# standard deviation of the velocity of a new track.
+ACCELERATION_DENSITY_M2_S3 = 0.4
 FIRST_SPEED_M_S = 0.7
-# After a pause of the frames this long a track is not predicted: it is expected where it was.
+# After a pause of the frames this long nothing is known of a track's velocity: it is expected where it was.
 PAUSE_S = 0.1
 # Error of the centre of pressure by sampling the skin in taxels: a taxel's side over sqrt(12) for one taxel, less for
 # more; and what is assumed where the uncertainty of the image is not known.
@@ -36,7 +37,7 @@ OFFSET_RATE_DECAY_S = 0.3
 @kernel
 def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks: NDArray[Any]) -> None:
     """Predict every track to the time of the frame, and drop those that were away or merged for too long."""
-    variance = (ACCELERATION_M_S2 * dt_s) ** 2
+    gained = ACCELERATION_DENSITY_M2_S3 * dt_s
     decay = math.exp(-dt_s / OFFSET_RATE_DECAY_S)
     for t in range(MAX_TRACKS):
         track = tracks[t]
@@ -56,15 +57,16 @@ def predict(time_s: float, dt_s: float, bridge_s: float, memory_s: float, tracks
                 track.state = FREE
         if track.state == ACTIVE or track.state == AWAY:
             if dt_s > PAUSE_S:
-                track.vx = track.vy = 0.0
+                track.vx = track.vy = track.x_pv = track.y_pv = 0.0
+                track.x_vv = track.y_vv = FIRST_SPEED_M_S**2
             track.x += track.vx * dt_s
             track.y += track.vy * dt_s
-            track.x_pp += dt_s * (2.0 * track.x_pv + dt_s * track.x_vv) + 0.25 * variance * dt_s**2
-            track.x_pv += dt_s * track.x_vv + 0.5 * variance * dt_s
-            track.x_vv += variance
-            track.y_pp += dt_s * (2.0 * track.y_pv + dt_s * track.y_vv) + 0.25 * variance * dt_s**2
-            track.y_pv += dt_s * track.y_vv + 0.5 * variance * dt_s
-            track.y_vv += variance
+            track.x_pp += dt_s * (2.0 * track.x_pv + dt_s * (track.x_vv + gained / 3.0))
+            track.x_pv += dt_s * (track.x_vv + gained / 2.0)
+            track.x_vv += gained
+            track.y_pp += dt_s * (2.0 * track.y_pv + dt_s * (track.y_vv + gained / 3.0))
+            track.y_pv += dt_s * (track.y_vv + gained / 2.0)
+            track.y_vv += gained
 
 
 @kernel
