@@ -153,7 +153,11 @@ class OutlineTracer:
         if not self._tracks or not self._follows(end_s):
             return False
         pressed = image > self._touch_counts
-        if any(track.edge is not None or not pressed[track.mask].any() for track in self._tracks):
+        oldest_s = end_s - self.config.outlines_fast_s
+        if any(
+            track.began_s >= oldest_s or track.edge is not None or not pressed[track.mask].any()
+            for track in self._tracks
+        ):
             return False
         if (pressed & ~self._known).any():
             return False
@@ -280,7 +284,9 @@ class OutlineTracer:
         if not track.is_felt:
             return np.zeros((0, 2))
         if age_s > self.config.outlines_fast_s:
-            track.edge = None
+            if track.edge is not None:
+                # Found in another way, the outline has not grown by what the two differ.
+                track.edge = track.last = None
             return self._contour(frame, label, level_n)
         if track.edge is None:
             edge = self._begun(frame, inside, level_n, 1e3 * age_s)
@@ -325,8 +331,9 @@ class OutlineTracer:
         largest = max(loops, key=area, default=np.zeros((0, 2)))
         if len(largest) < 3 or area(largest) < _LEAST_AREA:
             return np.zeros((0, 2))
-        shifted: Array = largest + np.array([first_row, first_col])
-        return shifted
+        # At a border the field ends with 0, so that a hard pressed taxel's level lies up to a taxel beyond it.
+        shifted = largest + np.array([first_row, first_col])
+        return np.clip(shifted, (first_row - 0.5, first_col - 0.5), (end_row - 0.5, end_col - 0.5))
 
     def _outline(self, track: _Track, corners: Array, time_s: float) -> Outline | None:
         if not len(corners):
