@@ -16,7 +16,7 @@ help:
 	@echo "make lint    linters and type checks only"
 	@echo "make format  format Python and C++"
 	@echo "make setup   only the set-up: virtual environment, ROS 2 wheels, colcon build"
-	@echo "make clean   remove everything that was built or installed"
+	@echo "make clean   remove everything that was built or installed, and out/"
 
 setup:
 	@bash -c 'set -euo pipefail; source scripts/enter.sh; echo "[setup] ready: ./acts --help"'
