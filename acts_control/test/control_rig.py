@@ -28,6 +28,7 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from acts_control.ball.plate import acceleration_of
+from acts_control.robots.ur.ur_probe import DASHBOARD_PORT
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, StreamStatistics
 from acts_ros.messages import set_stamp
@@ -123,6 +124,15 @@ class SimulatedRobot(Process):
         with socket.create_connection((self.host, HOOK_PORT), timeout=10.0) as connection:
             connection.sendall(line.encode() + b"\n")
             return connection.makefile("r").readline().strip()
+
+    def ask_dashboard(self, line: str) -> str:
+        """Do what a person does at the robot's panel; what it answers."""
+        with socket.create_connection((self.host, DASHBOARD_PORT), timeout=10.0) as connection:
+            lines = connection.makefile("rw")
+            lines.readline()
+            lines.write(line + "\n")
+            lines.flush()
+            return lines.readline().strip()
 
     def state(self) -> dict[str, Any]:
         """Joint angles, program, safety."""

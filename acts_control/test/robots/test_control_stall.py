@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -29,7 +28,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 import acts_control.robots.ur.robot
 from acts_control.ball import Phase
 from acts_control.robots.ur import UrConfig, UrRobot
-from acts_control.robots.ur.ur_probe import DASHBOARD_PORT, probe
+from acts_control.robots.ur.ur_probe import probe
 from acts_core.errors import RobotError
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
@@ -273,16 +272,6 @@ def test_an_arm_stops_when_our_process_stands_still() -> None:
             assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
 
 
-def ask_dashboard(host: str, words: str) -> str:
-    """Do what a person does at the robot's panel; what it answers."""
-    with socket.create_connection((host, DASHBOARD_PORT), timeout=10.0) as connection:
-        lines = connection.makefile("rw")
-        lines.readline()
-        lines.write(words + "\n")
-        lines.flush()
-        return lines.readline().strip()
-
-
 def test_an_arm_does_not_go_on_when_a_protective_stop_on_its_way_is_released_and_its_program_played() -> None:
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
     with ExitStack() as stack:
@@ -293,8 +282,8 @@ def test_an_arm_does_not_go_on_when_a_protective_stop_on_its_way_is_released_and
         assert rig.await_phase(Phase.STOPPED) == "robot: protective stop"
         rig.await_time(1.0)
         stopped_at = simulated.state()["q_rad"]
-        assert ask_dashboard(simulated.host, "unlock protective stop") == "Protective stop releasing"
-        assert ask_dashboard(simulated.host, "play") == "Starting program"
+        assert simulated.ask_dashboard("unlock protective stop") == "Protective stop releasing"
+        assert simulated.ask_dashboard("play") == "Starting program"
         wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
         assert simulated.state()["q_rad"] == pytest.approx(stopped_at, abs=1e-3)
 

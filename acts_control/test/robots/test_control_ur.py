@@ -18,7 +18,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from acts_control.robots.base import CommandRefusedError
+import acts_control.robots.ur.robot
+from acts_control.robots.base import CommandRefusedError, RobotStoppedError
 from acts_control.robots.ur import UrConfig, UrRobot, ur_process
 from acts_control.robots.ur.gate import JointGate
 from acts_control.robots.ur.state import UrState
@@ -211,6 +212,44 @@ def test_a_reading_has_the_plates_tilt_and_how_far_the_arm_is_from_level() -> No
     assert (reading.waiting_s, reading.silent_s) == (0.1, 0.3)
 
 
+@pytest.mark.parametrize(
+    ("mode", "words"),
+    [(7, ""), (3, "it is off"), (5, "its brakes are on"), (99, "its mode is 99, needed is 7")],
+)
+def test_why_the_arm_is_not_ready(mode: int, words: str) -> None:
+    assert STATE._replace(robot_mode=mode).unready == words
+
+
+@pytest.mark.parametrize(
+    ("told", "kind"),
+    [
+        ("take_control: ur_rtde: Please enable remote control on the robot!", RobotStoppedError),
+        ("take_control: ur_rtde: Failed to start control script, before timeout of 5 seconds", RobotStoppedError),
+        ("the control script does not run (waited for 2 s)", RobotStoppedError),
+        ("take_control: One of the RTDE input registers are already in use!", RobotError),
+        ("take_control: no answer (waited for 10 s)", RobotError),
+    ],
+)
+def test_only_an_arm_that_nobody_has_to_make_ready_is_tried_again(
+    monkeypatch: pytest.MonkeyPatch, told: str, kind: type[RobotError]
+) -> None:
+    robot = UrRobot(UrConfig(robot_ip=HOST))
+
+    def carry_out(name: str, *_others: object) -> None:
+        if name == "take_control":
+            raise RobotError(told)
+
+    monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
+    monkeypatch.setattr(robot, "_start_process", lambda: None)
+    monkeypatch.setattr(robot, "_carry_out", carry_out)
+    monkeypatch.setattr(robot, "_newest", lambda: STATE)
+    with pytest.raises(RobotError) as caught:
+        robot.connect(lambda: True)
+    assert type(caught.value) is kind
+    assert str(caught.value).startswith(told)
+    assert ("then call start" in str(caught.value)) == (kind is RobotStoppedError)
+
+
 class StopsMeanwhile:
     """A controller whose emergency stop comes after so many of its values were read."""
 
@@ -236,6 +275,9 @@ class StopsMeanwhile:
 
     def getRuntimeState(self) -> int:  # noqa: N802
         return 1 if self._is_stopped() else 2
+
+    def getRobotMode(self) -> int:  # noqa: N802
+        return 7
 
 
 @pytest.mark.parametrize("values", range(6))

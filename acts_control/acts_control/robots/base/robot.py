@@ -53,7 +53,7 @@ class RobotConfig(TiltLimits):
 
 
 class RobotStoppedError(RobotError):
-    """A safety function holds the robot; a person has to release it."""
+    """A safety function holds the robot, or it is not ready to move; a person has to change that at the robot."""
 
 
 class CommandRefusedError(RobotError):
@@ -110,7 +110,7 @@ class Robot(Protocol):
         Raises
         ------
         RobotStoppedError
-            When a person has to release the robot first.
+            When a person has to release the robot, or to make it ready, first.
         """
 
     def read(self) -> RobotReading:

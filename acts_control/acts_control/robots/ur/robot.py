@@ -47,6 +47,17 @@ _LEVELLING_FACTOR = 3.0
 
 _PACKET_BYTES = 65536
 
+_NOT_RUNNING = "the control script does not run"
+
+# What is said, here and by the library, of an arm that is not ready. It would move as soon as a person makes it so.
+_NOT_READY = (
+    _NOT_RUNNING,
+    "Failed to start control script",
+    "RTDE control program is not running",
+    "Please enable remote control",
+)
+_MAKE_READY = "switch the arm on, release its brakes, put it into remote control, then call start"
+
 
 class UrRobot:
     """A UR5e, real or simulated, through `ur_process`. The plate is tilted by wrist 1 and wrist 2."""
@@ -81,7 +92,7 @@ class UrRobot:
         RobotError
             When the controller does not answer, another program controls the robot, or it is not wanted any more.
         RobotStoppedError
-            When a safety function holds it.
+            When a safety function holds it, or it is off, has its brakes on or is in local control.
         RobotTakenError
             When another program of this machine controls it.
         """
@@ -93,17 +104,14 @@ class UrRobot:
         try:
             self._start_process()
             self._carry_out("watch", is_wanted)
-            stop = self._newest().safety_stop
-            if stop:
-                raise RobotStoppedError(f"{host}: {stop}; release it at the robot, then start again")
+            state = self._newest()
+            if state.safety_stop:
+                raise RobotStoppedError(f"{host}: {state.safety_stop}; release it at the robot, then start again")
+            if state.unready:
+                raise RobotStoppedError(f"{host}: the arm is not ready, {state.unready}; {_MAKE_READY}")
             self._carry_out("take_control", is_wanted)
             # The library knows that its program runs a packet or two before it can be read.
-            self._await(
-                lambda: self._newest().is_playing,
-                is_wanted,
-                _PROGRAM_TIMEOUT_S,
-                "the control script does not run; is the robot in remote control?",
-            )
+            self._await(lambda: self._newest().is_playing, is_wanted, _PROGRAM_TIMEOUT_S, _NOT_RUNNING)
             # From here on the robot stops by itself when this process, `ur_process` or the network falls silent.
             self._carry_out("setWatchdog", is_wanted, 1.0 / self._config.robot_watchdog_s)
             self._silent_s = 0.0
@@ -111,6 +119,8 @@ class UrRobot:
             self.disconnect()
             if "already in use" in str(error):
                 raise RobotError(f"{error} Is another program controlling the robot?") from error
+            if any(words in str(error) for words in _NOT_READY):
+                raise RobotStoppedError(f"{error}; {_MAKE_READY}") from error
             raise
 
     def read(self) -> RobotReading:
@@ -278,8 +288,8 @@ class UrRobot:
                 raise RobotError(f"{self._config.robot_ip}: {self._how_it_ended()}")
             kind, *words = json.loads(packet)
             if kind == "reading":
-                connected, timestamp_s, q_rad, safety_bits, runtime_state, silent_s = words
-                self._state = UrState(connected, timestamp_s, tuple(q_rad), safety_bits, runtime_state, silent_s)
+                connected, timestamp_s, q_rad, *others = words
+                self._state = UrState(connected, timestamp_s, tuple(q_rad), *others)
                 continue
             name, _ = self._pending.popleft()
             if kind == "failed":

@@ -26,6 +26,19 @@ _SAFETY_BITS = (
 _PLAYING = 2
 _RUNTIME_NAMES = {0: "stopping", 1: "stopped", _PLAYING: "playing", 3: "pausing", 4: "paused", 5: "resuming"}
 
+_RUNNING = 7
+_MODE_NAMES = {
+    -1: "there is no controller",
+    0: "it is not connected to its controller",
+    1: "its safety settings wait to be confirmed",
+    2: "it is booting",
+    3: "it is off",
+    4: "it is on, but not ready",
+    5: "its brakes are on",
+    6: "it is guided by hand",
+    8: "its firmware is being updated",
+}
+
 _UNKNOWN = float("nan")
 
 
@@ -39,8 +52,8 @@ class UrState(NamedTuple):
         The controller's clock [s].
     q_rad : tuple of float
         Joint angles, base to wrist 3 [rad].
-    safety_bits, runtime_state : int
-        safety_status_bits and runtime_state.
+    safety_bits, runtime_state, robot_mode : int
+        safety_status_bits, runtime_state and robot_mode.
     silent_s : float
         How long it had told nothing before that [s].
     """
@@ -50,12 +63,20 @@ class UrState(NamedTuple):
     q_rad: tuple[float, ...]
     safety_bits: int
     runtime_state: int
+    robot_mode: int = _RUNNING
     silent_s: float = 0.0
 
     @property
     def safety_stop(self) -> str:
         """Which safety function holds the robot, in words; empty when none does."""
         return next((words for mask, words in _SAFETY_BITS if self.safety_bits & mask), "")
+
+    @property
+    def unready(self) -> str:
+        """Why the arm cannot run a program, in words; empty when it is on and its brakes are released."""
+        if self.robot_mode == _RUNNING:
+            return ""
+        return _MODE_NAMES.get(self.robot_mode, f"its mode is {self.robot_mode}, needed is {_RUNNING}")
 
     @property
     def is_playing(self) -> bool:

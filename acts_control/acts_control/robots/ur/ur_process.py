@@ -31,7 +31,7 @@ from contextlib import suppress
 from typing import Any
 
 # What is asked of the robot. With the library's own list of 58 variables its threads take several times the CPU.
-_VARIABLES = ["timestamp", "actual_q", "safety_status_bits", "runtime_state", "robot_status_bits"]
+_VARIABLES = ["timestamp", "actual_q", "safety_status_bits", "runtime_state", "robot_status_bits", "robot_mode"]
 
 _PACKET_BYTES = 65536
 
@@ -127,8 +127,8 @@ class _Connection:
         # A packet may come between two of these calls: the safety bits last, so that they are not older than a program
         # that they have stopped.
         begin = receive.isConnected(), receive.getTimestamp(), receive.getActualQ()
-        runtime_state = receive.getRuntimeState()
-        return (*begin, receive.getSafetyStatusBits(), runtime_state)
+        runtime_state, robot_mode = receive.getRuntimeState(), receive.getRobotMode()
+        return (*begin, receive.getSafetyStatusBits(), runtime_state, robot_mode)
 
     def _tell(self, *words: object) -> None:
         self._link.send(json.dumps(words).encode())
