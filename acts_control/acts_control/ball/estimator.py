@@ -241,6 +241,9 @@ class BallEstimator:
             state.without_contact += 1
         else:
             zx, zy = x + self._lever * self._lean_x, y + self._lever * self._lean_y
+            if not state.valid:
+                # What was felt before need not have been this ball: a hand may have pressed harder than it weighs.
+                self._usual_force = 0.0
             variance = self._variance(force, dt if state.valid else 0.0)
             if not state.valid or not self._correct(zx, zy, variance, stamp_ns):
                 self._restart(zx, zy, variance, stamp_ns)

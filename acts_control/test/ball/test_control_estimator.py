@@ -259,6 +259,24 @@ def test_one_hard_knock_does_not_make_all_that_follows_doubtful() -> None:
     assert estimator.state.x_m > 0.011
 
 
+def test_a_hand_that_pressed_before_does_not_make_the_next_ball_doubtful() -> None:
+    def after(force_n: float) -> BallEstimator:
+        estimator = BallEstimator(EstimatorConfig())
+        for k in range(1000):
+            estimator.step(touch(k, force_n=force_n))
+        for k in range(1000, 2000):
+            estimator.step(touch(k, touched=False))
+        for k in range(2000, 3000):
+            estimator.step(touch(k, 0.010, force_n=5.0))
+        for k in range(3000, 3100):
+            estimator.step(touch(k, 0.014, force_n=5.0))
+        return estimator
+
+    pressed, unpressed = after(25.0), after(5.0)
+    assert unpressed.state.x_m == pytest.approx(0.014, abs=1e-3)
+    assert pressed.state.x_m == pytest.approx(unpressed.state.x_m, abs=1e-6)
+
+
 def test_settings_out_of_range_are_refused() -> None:
     with pytest.raises(SettingsError, match="measurement_sigma_m"):
         EstimatorConfig(measurement_sigma_m=0.0)
