@@ -34,6 +34,8 @@ from acts_core.stop_signals import signal_name
 _CONNECT_TIMEOUT_S = 10.0
 _PROGRAM_TIMEOUT_S = 2.0
 _KILL_TIMEOUT_S = 1.0
+# Longest that a program which has just been uploaded is waited for to end: a person may have asked for a stop.
+_GIVE_UP_S = 0.5
 _POLL_S = 0.002
 
 _STOP_DECELERATION_RAD_S2 = 4.0
@@ -78,6 +80,8 @@ class UrRobot:
         self._silent_s = 0.0
         # When the robot's watchdog is to be told next [s]; never while commands are sent anyway, or motion is ended.
         self._kick_s = inf
+        # Whether an attempt to connect may have left our program running on the robot.
+        self._is_left_running = False
 
     @property
     def address(self) -> str:
@@ -101,6 +105,7 @@ class UrRobot:
             self._claim = RobotClaim(host)
         self._await_former_end()
         probe(host)
+        is_uploading = False
         try:
             self._start_process()
             self._carry_out("watch", is_wanted)
@@ -109,13 +114,17 @@ class UrRobot:
                 raise RobotStoppedError(f"{host}: {state.safety_stop}; release it at the robot, then start again")
             if state.unready:
                 raise RobotStoppedError(f"{host}: the arm is not ready, {state.unready}; {_MAKE_READY}")
+            is_uploading = True
             self._carry_out("take_control", is_wanted)
             # The library knows that its program runs a packet or two before it can be read.
             self._await(lambda: self._newest().is_playing, is_wanted, _PROGRAM_TIMEOUT_S, _NOT_RUNNING)
             # From here on the robot stops by itself when this process, `ur_process` or the network falls silent.
             self._carry_out("setWatchdog", is_wanted, 1.0 / self._config.robot_watchdog_s)
             self._silent_s = 0.0
+            self._is_left_running = False
         except RobotError as error:
+            if is_uploading:
+                self._end_uploaded()
             self.disconnect()
             if "already in use" in str(error):
                 raise RobotError(f"{error} Is another program controlling the robot?") from error
@@ -195,10 +204,18 @@ class UrRobot:
         self._send("servoStop", _STOP_DECELERATION_RAD_S2)
 
     def release(self) -> None:
-        """Give up control; the robot's program ends."""
+        """Give up control; the robot's program ends.
+
+        Raises
+        ------
+        RobotError
+            When that cannot be told to the robot, or an attempt to connect that was given up has not ended it.
+        """
         self._kick_s = inf
         if self._link is not None:
             self._send("stopScript")
+        elif self._is_left_running:
+            raise RobotError(f"{self._config.robot_ip}: connecting was given up while it was uploaded")
 
     def disconnect(self) -> None:
         """Cut the connection; no command is sent any more."""
@@ -215,6 +232,14 @@ class UrRobot:
             # Last: another program may take the robot from here on.
             self._claim.close()
             self._claim = None
+
+    def _end_uploaded(self) -> None:
+        """End a program that nothing watches yet, and that may still be starting. Waits for a moment only."""
+        try:
+            self._send("end_program")
+            self._await(lambda: not self.is_busy, lambda: True, _GIVE_UP_S, "end_program: no answer")
+        except RobotError:
+            self._is_left_running = True
 
     def _await_former_end(self) -> None:
         """Two connections at once would be refused, and both might command."""

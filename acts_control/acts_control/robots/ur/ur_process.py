@@ -10,8 +10,9 @@ this process for one connection, and kills it when that is over: whatever the li
 is sent any more.
 
 Both talk over a socket, one JSON list a packet. To this process: ``watch`` (read the robot), then ``take_control``,
-then any method of RTDEControlInterface with its arguments. From it: ``["reading", ...]`` whenever the robot has told
-something new, and after every command, in their order, ``["done", result]`` or ``["failed", text]``.
+then any method of RTDEControlInterface with its arguments; ``end_program`` at any time. From it: ``["reading", ...]``
+whenever the robot has told something new, and after every command, in their order, ``["done", result]`` or
+``["failed", text]``.
 
 When the other process vanishes, this one ends the robot's program.
 """
@@ -65,7 +66,7 @@ class _Connection:
 
     def carry_out(self, name: str, *arguments: object) -> None:
         """Do what a packet says, and answer."""
-        own = {"watch": self._watch, "take_control": self._take_control}
+        own = {"watch": self._watch, "take_control": self._take_control, "end_program": self.end_program}
         try:
             result = (own.get(name) or getattr(self._control, name))(*arguments)
         except ImportError as error:
