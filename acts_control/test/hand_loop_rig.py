@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The loop of a hand, on the simulated bus."""
+"""The loop of a hand, on the simulated bus or on made motors."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from dynamixel_bus import DEADLINE_S, Bus
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import LEAP_RIGHT, HandDescription
-from acts_control.hand.motors import HandReading
+from acts_control.hand.motors import HandError, HandLostError, HandReading
+
+STALE_S = 1.0
+"""How long a command to a made hand counts [s]."""
 
 
 class Running:
@@ -69,3 +72,54 @@ class Moved:
 
     def sent(self, began_s: float, sent_s: float) -> None:
         pass
+
+
+class MadeBus:
+    """Motors whose answers are made."""
+
+    def __init__(self) -> None:
+        self.q_rad = [0.3] * 16
+        self.current_ma = [0.0] * 16
+        self.faults = [""] * 16
+        self.moves_to_rad = self.q_rad
+        self.is_there = True
+        self.answers = threading.Event()
+        self.answers.set()
+        self.has_torque = False
+        self.sent: list[list[float]] = []
+
+    def connect(self) -> list[str]:
+        self.has_torque = False
+        if not self.is_there:
+            raise HandError("nobody is there")
+        return []
+
+    def enable(self) -> None:
+        # Somebody moves the fingers until they have torque.
+        self.q_rad = self.moves_to_rad
+        self.has_torque = True
+
+    def release(self) -> None:
+        self.has_torque = False
+
+    def read(self) -> HandReading:
+        if not self.is_there:
+            raise HandLostError("nobody is there any more")
+        self.answers.wait(DEADLINE_S)
+        none = (0.0,) * 16
+        return HandReading(tuple(self.q_rad), none, tuple(self.current_ma), (30,) * 16, tuple(self.faults))
+
+    def command(self, q_rad: Sequence[float]) -> None:
+        self.sent.append(list(q_rad))
+
+    def recover(self, joint: int) -> None:
+        self.faults[joint] = ""
+
+    def disconnect(self) -> None:
+        pass
+
+    def close(self) -> None:
+        pass
+
+
+Made = tuple[MadeBus, HandLoop, Callable[[Callable[[], bool]], None]]

@@ -5,12 +5,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from dynamixel_bus import Bus
-from hand_loop_rig import Running
+from dynamixel_bus import DEADLINE_S, Bus
+from hand_loop_rig import STALE_S, Made, MadeBus, Running
+
+from acts_control.hand.control import HandLoop, HandLoopConfig
+from acts_control.hand.description import LEAP_RIGHT
 
 
 @pytest.fixture
@@ -26,3 +30,20 @@ def running(bus: Bus) -> Iterator[Running]:
     yield running
     running.loop.close()
     assert {motor["torque_enable"] for motor in bus.motors()} == {0}
+
+
+@pytest.fixture
+def made() -> Iterator[Made]:
+    bus = MadeBus()
+    config = HandLoopConfig(autostart=False, connect_retry_s=0.05, command_stale_after_s=STALE_S)
+    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
+
+    def until(condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + DEADLINE_S
+        while not condition():
+            assert time.monotonic() < end_s, loop.status
+            time.sleep(0.005)
+
+    loop.launch()
+    yield bus, loop, until
+    loop.close()

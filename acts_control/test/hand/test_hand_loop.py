@@ -8,17 +8,17 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
-from hand_loop_rig import Moved, Running
+from hand_loop_rig import STALE_S, Made, Moved, Running
 
-from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.motors import DynamixelHand, HandError, HandLostError, HandReading
+from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
 pytestmark = pytest.mark.slow
 
@@ -197,76 +197,6 @@ def test_a_joint_that_is_said_to_be_where_no_joint_comes_gets_no_torque(bus: Bus
             assert running.loop.enable() == f"the torque is off: {running.loop.status.reason}"
     finally:
         running.loop.close()
-
-
-STALE_S = 1.0
-
-
-class MadeBus:
-    """Motors whose answers are made."""
-
-    def __init__(self) -> None:
-        self.q_rad = [0.3] * 16
-        self.current_ma = [0.0] * 16
-        self.moves_to_rad = self.q_rad
-        self.is_there = True
-        self.answers = threading.Event()
-        self.answers.set()
-        self.has_torque = False
-        self.sent: list[list[float]] = []
-
-    def connect(self) -> list[str]:
-        self.has_torque = False
-        if not self.is_there:
-            raise HandError("nobody is there")
-        return []
-
-    def enable(self) -> None:
-        # Somebody moves the fingers until they have torque.
-        self.q_rad = self.moves_to_rad
-        self.has_torque = True
-
-    def release(self) -> None:
-        self.has_torque = False
-
-    def read(self) -> HandReading:
-        if not self.is_there:
-            raise HandLostError("nobody is there any more")
-        self.answers.wait(DEADLINE_S)
-        none = (0.0,) * 16
-        return HandReading(tuple(self.q_rad), none, tuple(self.current_ma), (30,) * 16, ("",) * 16)
-
-    def command(self, q_rad: Sequence[float]) -> None:
-        self.sent.append(list(q_rad))
-
-    def recover(self, joint: int) -> None:
-        pass
-
-    def disconnect(self) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
-
-
-Made = tuple[MadeBus, HandLoop, Callable[[Callable[[], bool]], None]]
-
-
-@pytest.fixture
-def made() -> Iterator[Made]:
-    bus = MadeBus()
-    config = HandLoopConfig(autostart=False, connect_retry_s=0.05, command_stale_after_s=STALE_S)
-    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
-
-    def until(condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s, loop.status
-            time.sleep(0.005)
-
-    loop.launch()
-    yield bus, loop, until
-    loop.close()
 
 
 def test_fingers_that_are_moved_while_the_torque_comes_on_are_not_pulled_back(made: Made) -> None:

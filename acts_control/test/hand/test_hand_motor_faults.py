@@ -5,11 +5,12 @@
 
 from __future__ import annotations
 
+import threading
 from functools import partial
 
 import pytest
-from dynamixel_bus import Bus, torques
-from hand_loop_rig import Moved, Running
+from dynamixel_bus import DEADLINE_S, Bus, torques
+from hand_loop_rig import Made, MadeBus, Moved, Running
 
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
@@ -232,3 +233,61 @@ def test_a_hand_that_was_given_up_begins_anew_when_it_is_enabled(bus: Bus) -> No
         assert moved.restarts == [False, True, False]
     finally:
         running.loop.close()
+
+
+class HeldReboots:
+    """Motors 0 to 3 of a made bus switch themselves off; starting them anew takes as long as the test wants.
+
+    Attributes
+    ----------
+    had_torque : list of bool
+        For each reboot that has begun, whether the others had torque then.
+    may_go_on : threading.Event
+    """
+
+    def __init__(self, bus: MadeBus, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.had_torque: list[bool] = []
+        self.may_go_on = threading.Event()
+        recover = bus.recover
+
+        def held(joint: int) -> None:
+            self.had_torque.append(bus.has_torque)
+            assert self.may_go_on.wait(DEADLINE_S)
+            recover(joint)
+
+        monkeypatch.setattr(bus, "recover", held)
+        bus.faults = ["overload"] * 4 + [""] * 12
+
+
+def test_a_release_while_a_motor_is_started_anew_is_obeyed_before_the_next_one_is(
+    made: Made, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    reboots = HeldReboots(bus, monkeypatch)
+    until(lambda: len(reboots.had_torque) == 1)
+    asked = loop.ask_release()
+    reboots.may_go_on.set()
+    until(lambda: loop.status.recovered == 4)
+    assert reboots.had_torque == [True, False, False, False]
+    assert asked.poll() == ""
+    cycles = loop.status.cycles
+    until(lambda: loop.status.cycles > cycles + 10)
+    assert loop.status.phase is HandPhase.RELEASED
+    assert not bus.has_torque
+
+
+def test_a_loop_that_is_to_end_while_a_motor_is_started_anew_does_not_wait_for_the_next_one(
+    made: Made, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    reboots = HeldReboots(bus, monkeypatch)
+    until(lambda: len(reboots.had_torque) == 1)
+    loop.close(timeout_s=0.0)
+    reboots.may_go_on.set()
+    until(lambda: loop.status.reason == "shutting down")
+    assert len(reboots.had_torque) == 1
+    assert not bus.has_torque

@@ -347,6 +347,10 @@ class HandLoop:
         for k, fault in enumerate(reading.faults):
             if not fault:
                 continue
+            # Starting the one before anew may have taken seconds, in which the others gripped on.
+            if self._closing.is_set():
+                return
+            self._obey_release()
             name = self._hand.joints[k].name
             if not is_forgiven and self._faults.add(k):
                 self._give_up(f"{name}: {fault}, {self._config.max_faults} times within a minute; call enable to go on")
