@@ -224,6 +224,47 @@ def test_a_hand_that_was_lost_and_then_stopped_gets_no_torque_when_it_is_back(ma
     assert bus.has_torque
 
 
+def test_who_enables_a_hand_that_is_being_released_is_told_once_its_torque_is_on_again(
+    made: Made, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    release, is_releasing, may_go_on = bus.release, threading.Event(), threading.Event()
+
+    def held() -> None:
+        release()
+        is_releasing.set()
+        assert may_go_on.wait(DEADLINE_S)
+
+    monkeypatch.setattr(bus, "release", held)
+    loop.ask_release()
+    assert is_releasing.wait(DEADLINE_S)
+    assert "have not said within 2 s that their torque is on" in loop.enable()
+    asked = loop.ask_enable()
+    assert asked.poll() is None
+    may_go_on.set()
+    until(lambda: asked.poll() is not None)
+    assert asked.poll() == ""
+    assert bus.has_torque
+
+
+def test_a_hand_that_was_released_and_enabled_between_two_cycles_is_not_released_by_a_later_stop(
+    bus: Bus, running: Running
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    running.may_go_on.clear()
+    assert running.is_held.wait(DEADLINE_S)
+    running.loop.ask_release()
+    asked = running.loop.ask_enable()
+    cycles = running.loop.status.cycles
+    running.may_go_on.set()
+    running.until(lambda: running.loop.status.cycles > cycles + 5)
+    assert asked.poll() == ""
+    assert not running.loop.cancel_enable()
+    assert torques(bus) == {1}
+
+
 def test_what_was_commanded_while_the_loop_stood_still_is_not_done(made: Made) -> None:
     bus, loop, until = made
     until(lambda: loop.status.phase is HandPhase.RELEASED)

@@ -125,7 +125,10 @@ class HandLoop:
         if self._wish.is_served:
             self._faults.forget()
             self._wish.on()
-        waits = self._wish.is_served and self.status.phase not in (HandPhase.CONNECTING, HandPhase.ENABLED)
+        phase = self.status.phase
+        # An enabled hand may be about to switch its torque off, as was asked for before this.
+        is_at_work = self._wish.is_under_way if phase is HandPhase.ENABLED else phase is not HandPhase.CONNECTING
+        waits = self._wish.is_served and is_at_work
         return PendingAnswer(self._wish.on_is_known, lambda: self._wish.why_not_on(self.status), waits=waits)
 
     @property
@@ -287,6 +290,9 @@ class HandLoop:
         if self._behaviour is not None:
             self._behaviour.sent(now_s, time.monotonic())
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(moved))
+        if self._wish.is_on and self._wish.is_under_way:
+            # Somebody has released and enabled it since the loop looked last: the torque has stayed on.
+            self._wish.has_come_on()
         return moved
 
     def _switch_on(self, reading: HandReading, *, recovered: bool) -> None:

@@ -120,6 +120,8 @@ class TorqueWish:
             return f"the hand's loop has ended: {status.reason}"
         if not self.is_on:
             return f"the torque is off: {self.why_off}"
+        if status.phase is HandPhase.ENABLED and self.is_under_way:
+            return f"the motors have not said within {_ANSWER_S:g} s that their torque is on; it was to go off before"
         if status.phase is HandPhase.ENABLED:
             return ""
         state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
