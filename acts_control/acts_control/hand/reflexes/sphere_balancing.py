@@ -157,7 +157,7 @@ class SphereBalancing(Reflex):
         """Steps of a finger that rolls the sphere to the centre before the others close around it."""
         state = self.state
         if state.rolling is None:
-            state.rolling = self._begin(sensed)
+            state.rolling = self._begin(sensed, ball)
         rolling, pinching = state.rolling, state.pinching
         if rolling is None or rolling.phase is Phase.GIVEN_UP:
             return None
@@ -185,16 +185,20 @@ class SphereBalancing(Reflex):
         is_small = rolling.phase is Phase.CENTRED and ball.radius_m < aiming.PAIR_M
         return Pinching(ball, self.config.sphere_force_n) if is_small else None
 
-    def _begin(self, sensed: Sensed) -> Rolling | None:
+    def _begin(self, sensed: Sensed, ball: Ball) -> Rolling | None:
         """What comes down on the sphere, once the palm has felt something round and no finger anything."""
         config, state = self.config, self.state
-        thumb = next((name for name, finger in sensed.hand.fingers.items() if finger.opposes), None)
         spread_m = max((one.spread_m for one in sensed.of_finger("") if one.in_contact), default=0.0)
         is_round = config.sphere_min_spread_m < spread_m < config.sphere_max_spread_m
         is_alone = not any(one.in_contact for name, one in sensed.regions.items() if sensed.finger(name))
         # Before the hand is in shape its thumb may come from the side, and push the sphere away.
         state.round_s = state.round_s + sensed.dt_s if sensed.is_shaped and is_round and is_alone else 0.0
-        return Rolling(thumb) if thumb is not None and state.round_s > _ROUND_S else None
+        if state.round_s <= _ROUND_S:
+            return None
+        # A thumb without skin would not feel what it comes down on.
+        felt = aiming.approaches(sensed, ball.foot_m, ball.up)
+        thumb = next((finger for finger in felt if sensed.hand.fingers[finger].opposes), None)
+        return Rolling(thumb) if thumb is not None else None
 
     def _hold(self, sensed: Sensed, ball: Ball) -> Wish | None:
         """Steps of all fingers, so that the sphere gets to the centre and every fingertip to the sphere."""
@@ -212,8 +216,9 @@ class SphereBalancing(Reflex):
         parts = aiming.approaches(sensed, ball.foot_m, ball.up)
         for finger, region in touched.items():
             if region is None:
-                # Beside a small sphere a finger finds nothing.
-                reaches = state.pinching is None or parts[finger].part != "beside"
+                # Beside a small sphere a finger finds nothing, and without skin it would not feel it.
+                part = parts.get(finger)
+                reaches = state.pinching is None or (part is not None and part.part != "beside")
                 rates += config.sphere_search_rad_s * sensed.closing(finger) * reaches
             elif sensed.role(region.name) != "distal":
                 rates[self._tip_joints(sensed, finger)] += config.sphere_search_rad_s

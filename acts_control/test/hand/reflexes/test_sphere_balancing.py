@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hand_rig import DT_S, LEAP, NAMES, RigidHand, region, sensed
+from hand_rig import DT_S, LEAP, NAMES, RigidHand, joints_of, region, sensed
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics
 from acts_control.hand.reflexes import HandState, Sensed, Wish
 from acts_control.hand.reflexes.base import Reflex
 from acts_control.hand.reflexes.sphere_balancing import SphereBalancing, SphereBalancingConfig
@@ -289,3 +289,31 @@ def test_what_is_held_and_no_sphere_is_left_to_the_other_reflexes(spread_m: floa
     reflex = SphereBalancing(SphereBalancingConfig())
     tips = [region(f"{finger}_distal", 0.2) for finger in LEAP_RIGHT.fingers]
     assert (reflex.step(sensed(on_palm(spread_m=spread_m), *tips)) is not None) is acts
+
+
+# --- a finger without skin
+
+
+def without_skin(finger: str, now: Sensed) -> Sensed:
+    """The same moment of a hand whose description gives a finger no region."""
+    kept = {name: one for name, one in LEAP_RIGHT.regions.items() if one.finger != finger}
+    felt = {name: one for name, one in now.regions.items() if name in kept}
+    return replace(now, kinematics=HandKinematics(replace(LEAP_RIGHT, regions=kept)), regions=felt)
+
+
+@pytest.mark.parametrize(("finger", "comes"), [("thumb", False), ("ring", True)])
+def test_a_thumb_without_skin_does_not_come_down_on_a_sphere(finger: str, comes: bool) -> None:
+    reflex = SphereBalancing(SphereBalancingConfig())
+    now = without_skin(finger, closing(on_palm()))
+    wishes = [reflex.step(now) for _ in range(round(0.3 / DT_S))]
+    assert (wishes[-1] is not None) is comes
+
+
+@pytest.mark.parametrize("finger", ["index", "ring"])
+def test_a_finger_without_skin_stays_where_it_is_while_two_others_hold_a_small_sphere(finger: str) -> None:
+    reflex = SphereBalancing(SphereBalancingConfig())
+    reflex.state.pinching = Pinching(ball(0.021, np.zeros(3)), 0.6)
+    pair = [region("middle_distal", 0.2), region("thumb_distal", 0.2)]
+    wish = reflex.step(without_skin(finger, sensed(on_palm(np.zeros(3)), *pair)))
+    assert wish is not None
+    assert not wish.steps[joints_of(finger)].any()
