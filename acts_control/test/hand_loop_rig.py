@@ -17,7 +17,7 @@ from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import HandError, HandLostError, HandReading
 
 STALE_S = 1.0
-"""How long a command to a made hand counts [s]."""
+"""How long a command to a made hand counts, and for how long its motors may be silent [s]."""
 
 
 class Running:
@@ -87,8 +87,11 @@ class MadeBus:
         self.answers.set()
         self.has_torque = False
         self.sent: list[list[float]] = []
+        self.connects = 0
+        self.answers_to_lose = 0
 
     def connect(self) -> list[str]:
+        self.connects += 1
         self.has_torque = False
         if not self.is_there:
             raise HandError("nobody is there")
@@ -106,6 +109,9 @@ class MadeBus:
         if not self.is_there:
             raise HandLostError("nobody is there any more")
         self.answers.wait(DEADLINE_S)
+        if self.answers_to_lose:
+            self.answers_to_lose -= 1
+            raise HandError("no answer")
         none = (0.0,) * 16
         return HandReading(tuple(self.q_rad), none, tuple(self.current_ma), (30,) * 16, tuple(self.faults))
 

@@ -35,7 +35,7 @@ def running(bus: Bus) -> Iterator[Running]:
 @pytest.fixture
 def made() -> Iterator[Made]:
     bus = MadeBus()
-    config = HandLoopConfig(autostart=False, connect_retry_s=0.05, command_stale_after_s=STALE_S)
+    config = HandLoopConfig(autostart=False, silence_s=STALE_S, connect_retry_s=0.05, command_stale_after_s=STALE_S)
     loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
 
     def until(condition: Callable[[], bool]) -> None:

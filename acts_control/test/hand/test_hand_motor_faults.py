@@ -6,11 +6,12 @@
 from __future__ import annotations
 
 import threading
+import time
 from functools import partial
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, torques
-from hand_loop_rig import Made, MadeBus, Moved, Running
+from hand_loop_rig import STALE_S, Made, MadeBus, Moved, Running
 
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
@@ -291,3 +292,30 @@ def test_a_loop_that_is_to_end_while_a_motor_is_started_anew_does_not_wait_for_t
     until(lambda: loop.status.reason == "shutting down")
     assert len(reboots.had_torque) == 1
     assert not bus.has_torque
+
+
+@pytest.mark.parametrize("slow", ["recover", "enable"])
+def test_an_answer_that_is_lost_after_motors_took_long_to_start_anew_ends_nothing(
+    made: Made, monkeypatch: pytest.MonkeyPatch, slow: str
+) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    quick = getattr(bus, slow)
+
+    def takes_long(*joint: int) -> None:
+        begin_s = time.monotonic()
+        until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
+        quick(*joint)
+        bus.answers_to_lose = 1
+
+    monkeypatch.setattr(bus, slow, takes_long)
+    bus.faults[2] = "overload"
+    until(lambda: loop.status.unanswered == 1)
+    until(lambda: loop.status.phase is HandPhase.ENABLED)
+    sent = len(bus.sent)
+    until(lambda: len(bus.sent) > sent)
+    assert bus.connects == 1
+    # Nobody stood still meanwhile: a command counts at once.
+    loop.command({"index_pip": 0.9})
+    until(lambda: bus.sent[-1][2] > 0.31)

@@ -231,15 +231,16 @@ class HandLoop:
                         raise
                     self._obey_release()  # for those that answer
                     continue
-                answered_s = now_s
                 self._set(self.status.phase, self.status.reason, reading=reading)
                 self._on_reading(reading)
                 self._obey_release()
                 if any(reading.faults):
                     self._recover(reading)
                     goal = []
-                    continue
-                goal = self._move(reading, goal, min(dt_s, 4.0 * period_s), now_s)
+                else:
+                    goal = self._move(reading, goal, min(dt_s, 4.0 * period_s), now_s)
+                # Either may have taken seconds: the motors have answered all the while.
+                answered_s = time.monotonic()
         finally:
             self._wish.has_gone_off()
             self._release_at_end()
@@ -301,7 +302,7 @@ class HandLoop:
         if far:
             self._give_up(far)
             return
-        self._is_on = True
+        self._is_on, began_s = True, time.monotonic()
         self._bus.enable()
         self._obeyed_s = time.monotonic()
         if not self._wish.is_on:
@@ -310,8 +311,8 @@ class HandLoop:
             return
         with self._lock:
             self._target.clear()  # what was wanted before is old
-            if not recovered:
-                self._looked_s = time.monotonic()
+            # Switching on was no standstill; what stopped the motors may have been one, and is yet to be noticed.
+            self._looked_s = self._looked_s + self._obeyed_s - began_s if recovered else self._obeyed_s
         for sentence in to_be_brought_back(self._hand, reading):
             self._log("warning", sentence)
         if self._behaviour is not None:
@@ -364,7 +365,9 @@ class HandLoop:
             self._log("error", f"{name}: {fault}; its motor is started anew")
             was_on = self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING)
             self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
+            began_s = time.monotonic()
             self._bus.recover(k)
+            self._looked_s += time.monotonic() - began_s  # the loop was at work, and did not stand still
             self._count(recovered=1)
 
     def _give_up(self, reason: str) -> None:
