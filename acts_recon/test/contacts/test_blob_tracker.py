@@ -142,6 +142,19 @@ def test_the_velocity_is_that_of_the_contact(tracker: BlobTracker, speed_m_s: fl
     assert velocity[:, 1] == pytest.approx(-0.5 * speed_m_s, abs=0.05)
 
 
+@pytest.mark.parametrize("rate_hz", [9, 24, 55, 250])
+def test_a_contact_that_begins_to_move_has_its_velocity_at_any_frame_rate(tracker: BlobTracker, rate_hz: int) -> None:
+    """From the third frame on, and where frames are faster than that, after a tenth of a second."""
+    speed_m_s, rest = 0.1, 20
+    step = speed_m_s / rate_hz / PITCH_M
+    for k in range(-rest, max(7, rate_hz // 4)):
+        image = 600 * np.exp(-((ROW - 16) ** 2 + (COL - 8 - step * max(k, 0)) ** 2) / 8)
+        (blob,) = tracker.step(image.astype(np.float32), (rest + k) / rate_hz)
+        assert blob.vy_m_s == pytest.approx(0, abs=0.01)
+        if k >= max(3, 0.1 * rate_hz):
+            assert blob.vx_m_s == pytest.approx(speed_m_s, rel=0.3)
+
+
 @pytest.mark.parametrize("away", [1, 5, 15])
 def test_a_contact_that_is_away_for_a_moment_keeps_its_number(tracker: BlobTracker, away: int) -> None:
     def presses(k: int) -> list[Press]:
