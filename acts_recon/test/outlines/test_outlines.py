@@ -188,6 +188,21 @@ def test_frames_are_skipped_while_contacts_are_old_and_lie_still() -> None:
     assert [one.number for one in traced(tracer, old, end_s + 4.0)] == [3]
 
 
+def test_no_frame_is_skipped_while_a_contact_is_too_small_for_an_edge_but_young() -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE)
+    begun, grown = np.zeros((2, 32, 32), dtype=np.uint16)
+    begun[16, 16:18] = 300
+    grown[15:18, 15:19] = 300
+    assert traced(tracer, begun, 10.0) == ()
+    assert not tracer.skip(10.001, grown.astype(np.float32))
+    assert len(traced(tracer, grown, 10.001)) == 1
+    # One that stays as small is passed over when it is old.
+    tracer.reset()
+    assert traced(tracer, begun, 20.0) == ()
+    assert not tracer.skip(20.04, begun.astype(np.float32))
+    assert tracer.skip(20.06, begun.astype(np.float32))
+
+
 def test_no_outline_reaches_over_a_border() -> None:
     glove = layout("glove", 32, 32)
     geometry = glove.geometry()
