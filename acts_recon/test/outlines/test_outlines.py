@@ -224,6 +224,25 @@ def test_no_outline_reaches_over_a_border() -> None:
         assert len(within) == 1
 
 
+def test_the_contour_of_what_is_pressed_hardest_at_the_edge_of_the_array_does_not_reach_over_it() -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
+    rows, cols = np.mgrid[0:32, 0:32]
+    counts = np.rint(900 * np.exp(-(rows**2 + (cols - 16) ** 2) / 8)).astype(np.uint16)
+    for number in range(80):
+        found = traced(tracer, counts, 1e-3 * number)
+    (outline,) = found
+    # It was 0.87 taxels beyond the first row.
+    assert GEOMETRY.row_of(outline.y_m).min() == pytest.approx(-0.5)
+
+
+def test_what_rests_does_not_grow_when_it_is_too_old_for_its_edge_to_be_followed() -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0, OutlinesConfig(outlines_fast_s=0.0505))
+    found = [traced(tracer, disc(15.3, 12.6, 4.4), 1e-3 * number)[0] for number in range(100)]
+    # Frame 51 is the first with a contour.
+    assert found[51].area_m2 != found[50].area_m2
+    assert [outline.growth_m2_s for outline in found[51:]] == [0.0] * 49
+
+
 @settings(max_examples=10, deadline=None)
 @given(data=st.data())
 def test_any_frames_have_finite_outlines(data: st.DataObject) -> None:
