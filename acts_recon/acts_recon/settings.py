@@ -328,7 +328,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         if len(arranged.patches) == 1 and not arranged.patches[0].link:
             return None
         return Regions(
-            arranged,
+            arranged.spaced(self.pitch_m, self.row_pitch_m),
             recovery.response,
             touch_counts=float(self.touch_counts),
             # With next to no noise anything would be slip.

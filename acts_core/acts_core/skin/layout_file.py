@@ -109,7 +109,7 @@ def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
         taxels.astype(np.uint16),
         pitch_m,
         row_pitch_m,
-        tuple(one.patch if "pose" in one.section.values else _in_picture(one.patch, geometry) for one in wired),
+        tuple(one.patch if "pose" in one.section.values else in_picture(one.patch, geometry) for one in wired),
         patch_of,
         top.flag("stood_on"),
     )
@@ -295,8 +295,8 @@ def _place(one: _Wired, index: int, taxels: NDArray[np.intp], patch_of: NDArray[
     one.patch.of(taxels)[...] = one.taxels
 
 
-def _in_picture(patch: SkinPatch, geometry: ArrayGeometry) -> SkinPatch:
-    """Without a pose a patch lies as in the picture."""
+def in_picture(patch: SkinPatch, geometry: ArrayGeometry) -> SkinPatch:
+    """A patch where it lies in a picture of this geometry, as those without a pose do."""
     x_m = geometry.x_m((patch.first_col + patch.end_col - 1) / 2)
     y_m = geometry.y_m((patch.first_row + patch.end_row - 1) / 2)
     return replace(patch, pose=Transform((float(x_m), float(y_m), 0.0)))

@@ -11,7 +11,7 @@ recovery, stay in matrix indices; images and contacts are the picture's. A layou
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.skin.layout_file import NO_PATCH, read_layout
+from acts_core.skin.layout_file import NO_PATCH, in_picture, read_layout
 from acts_core.skin.skin_patch import SkinPatch
 
 __all__ = ["LAYOUTS", "NO_PATCH", "Layout", "SkinPatch", "layout", "layout_path"]
@@ -112,6 +112,22 @@ class Layout:
         if not pitch_m:
             return ArrayGeometry(self.rows, self.cols, self.pitch_m, row_pitch_m or self.row_pitch_m)
         return ArrayGeometry(self.rows, self.cols, pitch_m, row_pitch_m or pitch_m)
+
+    def spaced(self, pitch_m: float = 0.0, row_pitch_m: float = 0.0) -> Layout:
+        """The layout with the picture's geometry that `geometry` gives for these distances [m].
+
+        Patches that lie as in the picture become larger or smaller with it. Those with a link or a pose of their own
+        stay as they are.
+        """
+        before, after = self.geometry(), self.geometry(pitch_m, row_pitch_m)
+        patches = []
+        for patch in self.patches:
+            if not patch.link and patch == in_picture(patch, before):
+                wider, longer = after.pitch_m / before.pitch_m, after.pitch_y_m / before.pitch_y_m
+                sized = replace(patch, pitch_m=wider * patch.pitch_m, row_pitch_m=longer * patch.row_pitch_m)
+                patch = in_picture(sized, after)
+            patches.append(patch)
+        return replace(self, pitch_m=after.pitch_m, row_pitch_m=after.pitch_y_m, patches=tuple(patches))
 
     def patch(self, row: int, col: int) -> SkinPatch:
         """The patch that holds a place of the picture."""

@@ -152,6 +152,24 @@ def test_a_pitch_of_ones_own() -> None:
     assert insole.geometry(row_pitch_m=0.003) == ArrayGeometry(64, 16, insole.pitch_m, 0.003)
 
 
+def test_patches_that_lie_as_in_the_picture_have_its_pitch() -> None:
+    glove = layout("glove")
+    assert glove.spaced().patches == glove.patches
+    larger = glove.spaced(0.008, 0.010)
+    geometry = glove.geometry(0.008, 0.010)
+    assert larger.geometry() == geometry
+    for patch in larger.patches:
+        rows, cols = np.arange(patch.first_row, patch.end_row), np.arange(patch.first_col, patch.end_col)
+        x_m, y_m = np.meshgrid(geometry.x_m(cols), geometry.y_m(rows))
+        assert patch.points_m() == pytest.approx(np.stack((x_m, y_m, np.zeros_like(x_m)), axis=-1))
+        assert patch.geometry.taxel_area_m2 == pytest.approx(0.008 * 0.010)
+
+
+def test_patches_on_links_keep_the_size_that_the_layout_gives() -> None:
+    hand = layout("leap_right")
+    assert hand.spaced(0.008).patches == hand.patches
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

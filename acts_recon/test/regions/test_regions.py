@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, RegionContact, SkinPatch, layout
 from acts_recon.regions import Regions
+from acts_recon.settings import ReconstructionSettings
 
 pytestmark = pytest.mark.slow
 
@@ -136,6 +137,20 @@ def test_of_a_single_taxel_the_place_is_that_of_the_layout_on_every_patch() -> N
         assert regions[index].centre_m == pytest.approx(tuple(patch.points_m()[2, 5]))
         assert regions[index].normal == pytest.approx(tuple(patch.normals()[2, 5]))
         assert regions[index].force_n == regions[index].peak_n == pytest.approx(float(RESPONSE.force_n(400.0)))
+
+
+def test_where_the_pitch_is_given_regions_lie_where_contacts_do() -> None:
+    given = ReconstructionSettings(layout="glove", pitch_m=0.008, row_pitch_m=0.010)
+    recovery = given.recovery()
+    found = given.regions(recovery)
+    assert found is not None
+    geometry = recovery.geometry
+    image = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
+    image[5, 29] = 400
+    (region,) = (region for region in found.step(0.0, image) if region.in_contact)
+    assert region.name == "little"
+    assert region.centre_m == pytest.approx((float(geometry.x_m(29)), float(geometry.y_m(5)), 0.0))
+    assert region.area_m2 == pytest.approx(geometry.taxel_area_m2)
 
 
 IMAGES = stn.arrays(
