@@ -41,7 +41,8 @@ class SpectraPublisher(TopicPublisher):
         super().__init__(node, SpectrumMessage, "spectra", settings)
         self._analyser = settings.spectrum_analyser(recovery)
         self._work: Future[tuple[Spectrum, ...]] | None = None
-        self._header, self._sequence = Header(), 0
+        self._frame_id, self._stamp_ns, self._sequence = "", 0, 0
+        self._ends_s: tuple[float, ...] = ()
 
     def reset(self) -> None:
         """See `FramePublisher.reset`."""
@@ -59,13 +60,21 @@ class SpectraPublisher(TopicPublisher):
             work, self._work = self._work, None
             found = work.result()
             for contact, spectrum in enumerate(found):
-                self._publisher.publish(_message(self._header, self._sequence, contact, len(found), spectrum))
+                header = self._header(spectrum.end_s)
+                self._publisher.publish(_message(header, self._sequence, contact, len(found), spectrum))
         window = self._analyser.window() if self._limit.due(time.monotonic()) else ()
         if window:
-            self._header = Header(frame_id=frame.header.frame_id)
-            set_stamp(self._header.stamp, frame.stamp_ns)
-            self._sequence = frame.sequence
+            self._frame_id, self._stamp_ns, self._sequence = frame.header.frame_id, frame.stamp_ns, frame.sequence
+            self._ends_s = tuple(placed.end_s for placed in window)
             self._work = background.begin(lambda: self._analyser.spectra(window), ends_within_s=_SPECTRA_END_WITHIN_S)
+
+    def _header(self, last_s: float) -> Header:
+        """With the end of the frame that has the last sample of a contact, which may end before the window does [s]."""
+        end_s = next(end_s for end_s in self._ends_s if end_s >= last_s)
+        header = Header(frame_id=self._frame_id)
+        # Seconds since 1970 leave too few digits: what counts is how long before the window's end.
+        set_stamp(header.stamp, self._stamp_ns - round((self._ends_s[-1] - end_s) * 1e9))
+        return header
 
     def _rate_hz(self, settings: ReconstructionConfig) -> float:
         return settings.spectra_rate_hz

@@ -9,7 +9,7 @@ from concurrent.futures import Future
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench, publisher_of
+from recon_bench import DEADLINE_S, FIRST_NS, Bench, publisher_of
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
@@ -18,6 +18,7 @@ from acts_msgs.msg import Spectrum
 from acts_recon import spectra as analysed
 from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_ros import qos
+from acts_ros.messages import ns_of
 
 GEOMETRY = ArrayGeometry()
 RESPONSE = ForceResponse()
@@ -56,6 +57,26 @@ def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench
     assert first.peak_amplitude[0] == pytest.approx(0.1 * first.force, rel=0.05)
     assert 0 < first.peak_amplitude_sigma[0] < first.peak_amplitude[0]
     assert np.argmax(first.amplitude) * first.step == pytest.approx(90, abs=2)
+
+
+def test_the_spectrum_of_what_was_lifted_has_the_stamp_at_which_it_was(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    for sequence in range(1, 200):
+        bench.take(sequence, counts_of(sequence) if sequence < 160 else np.zeros((32, 32)))
+    # The next frame publishes what is being made, and begins anew with the frames up to it.
+    for sequence in (200, 201):
+        assert spectra._work is not None
+        spectra._work.result(DEADLINE_S)
+        bench.take(sequence, np.zeros((32, 32)))
+    told = bench.received["spectra"]
+    bench.until(lambda: any(message.sequence == 200 for message in told))
+    lifted = next(message for message in told if message.sequence == 200)
+    # The part of the window in which it was lifted is left out: the 16th of 20.
+    assert ns_of(lifted.header.stamp) - FIRST_NS == pytest.approx(150_000_000, abs=1000)
+    assert lifted.duration == pytest.approx(0.149, abs=0.001)
 
 
 def test_a_spectrum_that_cannot_be_made_is_told_once_and_the_next_is_made(make_bench: Callable[..., Bench]) -> None:
