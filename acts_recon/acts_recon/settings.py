@@ -61,7 +61,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     noise_counts: float = setting(
         default_of(FusionConfig, "noise_counts"),
         "noise of a reading, its standard deviation, where the topic baseline does not have it [counts]; 0: not known, "
-        "then untouched skin is shown as what it reads in the mean",
+        "then untouched skin is shown as what it reads in the mean; contact, contacts, impacts, spectra, outlines and "
+        "regions use it even with a baseline, and 2 counts for 0: set it where the skin is noisier",
         minimum=0.0,
         maximum=100.0,
     )
