@@ -70,7 +70,7 @@ class SpectraPublisher(TopicPublisher):
 
     def _header(self, last_s: float) -> Header:
         """With the end of the frame that has the last sample of a contact, which may end before the window does [s]."""
-        end_s = next(end_s for end_s in self._ends_s if end_s >= last_s)
+        end_s = next((end_s for end_s in self._ends_s if end_s >= last_s), self._ends_s[-1])
         header = Header(frame_id=self._frame_id)
         # Seconds since 1970 leave too few digits: what counts is how long before the window's end.
         set_stamp(header.stamp, self._stamp_ns - round((self._ends_s[-1] - end_s) * 1e9))
