@@ -94,7 +94,9 @@ class BoardSession:
         self._opening = 0
         self._heard = -1
         self._settled: tuple[BoardSettings, BoardSettings] | None = None
+        # What was refused last, and the words it was refused with.
         self._refused: object = None
+        self._refusal = ""
         self._layout = BoardLayout(link, log)
         self._model = self._file_of(parameters)
         self._due: BoardModel | None = None
@@ -255,7 +257,7 @@ class BoardSession:
             return False
         except ActsError as error:
             # Not told again until something has changed.
-            self._refused = wanted
+            self._refused, self._refusal = wanted, str(error)
             self._set(replace(self.status, problem=str(error)))
             return False
         return True
@@ -272,7 +274,7 @@ class BoardSession:
         if state.firmware_version[:2] != FIRMWARE:
             self._set(BoardStatus(state, is_wrong_version=True, problem=_other_version(state)))
             return
-        problem = self.status.problem if self._refused is not None else self._mismatch(state)
+        problem = self._refusal if self._refused is not None else self._mismatch(state)
         self._set(BoardStatus(state, problem=problem))
 
     def _has_begun_anew(self, state: BoardState, now_s: float) -> bool:
@@ -318,7 +320,7 @@ class BoardSession:
                 self._set(replace(self.status, problem=str(error)))
                 # Anything else was a fault in transport, or a restart of the board.
                 if error.reply.status is ReplyStatus.MODEL_IMPOSSIBLE:
-                    self._refused = wanted
+                    self._refused, self._refusal = wanted, str(error)
             return
         finally:
             self._uploading = None

@@ -159,6 +159,20 @@ def test_packets_of_another_version_are_named(tmp_path: Path) -> None:
         host.close()
 
 
+def test_a_refused_parameter_is_told_again_after_an_outage(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with VirtualBoard(tmp_path / "board", "--control", str(control)) as board:
+        host = Host(board.link)
+        session = host.start_session(m=2000)
+        assert "m = 2000" in session.status.problem
+        # Longer than the session waits between two questions.
+        control.write_text("unplug:2.5\n")
+        wait_for(lambda: session.status.state is None, "the loss")
+        wait_for(lambda: session.status.state is not None, "the board again")
+        assert "m = 2000" in session.status.problem
+        host.close()
+
+
 def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
     session = host.start_session(size=(16, 24))
     wait_for(lambda: session.status.problem, "the problem")
