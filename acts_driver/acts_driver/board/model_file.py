@@ -60,6 +60,7 @@ class ModelFile:
         self._on_read = on_read
         self._reading: Future[BoardModel] | None = None
         self._began_s = 0.0
+        self._mark: tuple[int, int, int] | None = None
 
     def is_read_as(self, crc32: int) -> bool:
         """Whether it has been read, and is a model with this checksum."""
@@ -75,6 +76,17 @@ class ModelFile:
             return ""
         lasted_s = time.monotonic() - self._began_s
         return f"the model {self.path} is still being read, for {lasted_s:.0f} s" if lasted_s > _LONG_S else ""
+
+    def has_changed(self) -> bool:
+        """Whether the file is another one than was read, or was rewritten; looks for `background.PATIENCE_S` at most.
+
+        False while it is being read, and where it cannot be told, as of a file that is gone.
+        """
+        reading = self._reading
+        if reading is None or not reading.done():
+            return False
+        looking = background.begin(lambda: _mark_of(self.path))
+        return background.is_done(looking) and looking.result() not in (None, self._mark)
 
     def wait(self) -> None:
         """Give it `background.PATIENCE_S` to be read."""
@@ -98,6 +110,20 @@ class ModelFile:
     def _begun(self) -> Future[BoardModel]:
         if self._reading is None:
             self._began_s = time.monotonic()
-            self._reading = background.begin(lambda: load_model(self.path))
+            self._reading = background.begin(self._read)
             self._reading.add_done_callback(lambda _reading: self._on_read())
         return self._reading
+
+    def _read(self) -> BoardModel:
+        # Before it is read: what is written meanwhile counts as a change.
+        self._mark = _mark_of(self.path)
+        return load_model(self.path)
+
+
+def _mark_of(path: Path) -> tuple[int, int, int] | None:
+    """What tells a file from one that was there before; None where it cannot be looked at."""
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino

@@ -174,7 +174,7 @@ class BoardSession:
             It cannot be; the settings are as they were and the old wish stays.
         """
         model = self._model
-        if parameters.model != self._parameters.model:
+        if parameters.model != self._parameters.model or (model is not None and model.has_changed()):
             model = self._file_of(parameters)
         if model is not None:
             # The board may be asked meanwhile.

@@ -110,6 +110,25 @@ def test_a_change_that_cannot_be_leaves_the_old_wish(host: Host) -> None:
     assert session.status.problem == ""
 
 
+def test_a_model_whose_file_was_rewritten_is_uploaded_when_it_is_asked_for_again(host: Host, tmp_path: Path) -> None:
+    path = tmp_path / "d.npz"
+    np.savez(path, atoms=np.eye(64))
+    first = load_model(path).crc32
+    session = host.start_session(model=str(path))
+    wait_for(lambda: host.link.query().state.model.crc32 == first, "the model")
+    # A file of another length, in case that the clock of the disk is coarse.
+    np.savez(path, atoms=np.eye(64)[:, :32])
+    second = load_model(path).crc32
+    assert second != first
+    session.change(BoardParameters(model=str(path)))
+    wait_for(lambda: host.link.query().state.model.crc32 == second, "the new model")
+    # One that is gone is no reason to refuse another parameter.
+    path.unlink()
+    session.change(BoardParameters(model=str(path), m=64))
+    state = host.link.query().state
+    assert (state.settings.m, state.model.crc32) == (64, second)
+
+
 def test_a_board_that_was_reset_is_told_again(board: VirtualBoard, host: Host, tmp_path: Path) -> None:
     np.savez(tmp_path / "d.npz", atoms=np.eye(64))
     session = host.start_session(m=64, model=str(tmp_path / "d.npz"))
