@@ -32,10 +32,13 @@ class BoardLayout:
         self._map_of: tuple[str, tuple[int, int]] | None = None
         self._reading: Future[SkinMap | None] | None = None
         self._is_told = False
+        # Whether the board has a layout from here in place of its own.
+        self._has_arranged = False
 
     def begin_anew(self) -> None:
         """Note that the board was replaced or reset."""
         self._is_told = False
+        self._has_arranged = False
 
     def read_again(self) -> None:
         """Note that the file may have changed."""
@@ -56,7 +59,7 @@ class BoardLayout:
         """
         name, size = parameters.layout, (state.settings.rows, state.settings.cols)
         if not name:
-            return state
+            return self._give_back(state)
         if self._map_of != (name, size):
             self._map_of, self._reading = (name, size), begin(partial(parameters.skin_map, *size))
         if self._reading is not None:
@@ -75,5 +78,14 @@ class BoardLayout:
             return state
         if state.map_crc32 != wanted:
             state = self._link.arrange(self._map).state
+            self._has_arranged = True
             self._log("info", f"the board has taken the layout {name}")
+        return state
+
+    def _give_back(self, state: BoardState) -> BoardState:
+        """Bring the board to its own layout, which is the matrix: a board keeps none over a reset."""
+        if self._has_arranged:
+            state = self._link.arrange(None).state
+            self._has_arranged = False
+            self._log("info", "the board has its own layout again")
         return state

@@ -63,6 +63,22 @@ def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Ho
     ]
 
 
+def test_a_layout_that_is_no_longer_asked_for_gives_way_to_the_boards_own(host: Host) -> None:
+    session = host.start_session(layout="leap_right")
+    hand = SkinMap.of(layout("leap_right"))
+    assert host.link.query().state.map_crc32 == hand.crc32
+    session.change(BoardParameters())
+    assert host.link.query().state.map_crc32 == 0
+    # One that somebody else has told it stays, as nothing is asked.
+    host.link.arrange(hand)
+    session.change(BoardParameters(m=64))
+    assert host.link.query().state.map_crc32 == hand.crc32
+    assert [line for line in host.log if "layout" in line] == [
+        "the board has taken the layout leap_right",
+        "the board has its own layout again",
+    ]
+
+
 def test_a_layout_that_takes_long_to_read_is_told_to_the_board_then(
     host: Host, monkeypatch: pytest.MonkeyPatch
 ) -> None:
