@@ -11,7 +11,7 @@ from concurrent.futures import Future
 from pathlib import Path
 
 from acts_core.errors import ArrayError, BoardError
-from acts_core.files import read_npz
+from acts_core.files import path_of, read_npz
 from acts_core.runtime import background
 from acts_core.wire import BoardModel, object_library, patch_dictionary
 
@@ -30,6 +30,7 @@ def load_model(path: Path) -> BoardModel:
     BoardError
         The file is missing, is neither, or a board cannot hold it.
     """
+    path = path_of(str(path), error=BoardError)
     needed = "needed is a dictionary (atoms), as of `acts train`, or an object library (columns, classes)"
     content = read_npz(
         path, ("atoms", "columns", "classes"), error=BoardError, hint=needed, limit_bytes=MODEL_BYTES_MAX
@@ -123,7 +124,7 @@ class ModelFile:
 def _mark_of(path: Path) -> tuple[int, int, int] | None:
     """What tells a file from one that was there before; None where it cannot be looked at."""
     try:
-        found = path.stat()
-    except (OSError, ValueError):
+        found = path_of(str(path), error=BoardError).stat()
+    except (BoardError, OSError, ValueError):
         return None
     return found.st_mtime_ns, found.st_size, found.st_ino

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, npz_names, read_npz
+from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, npz_names, path_of, read_npz
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import (
     MEASUREMENT_US,
@@ -101,7 +101,7 @@ def open_recording(options: ReplayOptions) -> SeekableRecording:
     SettingsError, ArrayError
         Its array cannot be sampled as asked.
     """
-    path = options.path
+    path = path_of(str(options.path), error=RecordingError)
     if not is_there(path, error=RecordingError):
         raise RecordingError(f"there is no recording '{path}'; give a bag (folder, .mcap or .db3) or an .npz file")
     if path.suffix == ".npz":

@@ -37,6 +37,14 @@ def test_models_that_no_board_can_hold(content: dict[str, Any], words: str, tmp_
     assert "m.npz" in str(caught.value)
 
 
+def test_a_model_in_the_home_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    np.savez(tmp_path / "m.npz", atoms=np.eye(64))
+    assert load_model(Path("~/m.npz")) == load_model(tmp_path / "m.npz")
+    with pytest.raises(BoardError, match="~nobody-of-this-name"):
+        load_model(Path("~nobody-of-this-name/m.npz"))
+
+
 @given(st.integers(1, 1024), st.integers(1, 1024), st.sampled_from(["tracking", "hybrid", "adaptive"]), st.data())
 def test_quotas_always_fit_the_frame(own_m: int, m: int, scheme: str, data: st.DataObject) -> None:
     own = BoardSettings(

@@ -208,6 +208,15 @@ def test_what_is_wrong_with_a_bag_is_told_of_a_source_that_replays_it_all_the_sa
     source.close()
 
 
+def test_a_recording_in_the_home_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    write_samples(tmp_path / "samples.npz", [frame(0), frame(1)])
+    found = open_recording(ReplayOptions(Path("~/samples.npz"))).frames()
+    assert [one.sequence for one in found] == [0, 1]
+    with pytest.raises(RecordingError, match="~nobody-of-this-name"):
+        open_recording(ReplayOptions(Path("~nobody-of-this-name/samples.npz")))
+
+
 def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     def refused(path: Path, words: str, topic: str = "") -> None:
         with pytest.raises(RecordingError, match=words):
