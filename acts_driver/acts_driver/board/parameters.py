@@ -30,6 +30,9 @@ from acts_core.wire import LEDS, OUTPUTS, BoardSettings
 RATE_MIN_HZ = 1.0
 """Slowest frame rate that a board accepts."""
 
+# In microseconds, so that a rate of 1 / (333 us) does not become one of 1 / (334 us).
+_ROUNDING_US = 1e-6
+
 _OWN = tuple(BOARD_OWN_SETTINGS.values())
 _SAMPLING = (
     *("scheme", "m", "threshold_counts", "neighbour_order", "seed"),
@@ -168,7 +171,10 @@ class BoardParameters(_Own):  # type: ignore[misc]
         asked = self.given()
         m = asked.get("m", own.m)
         scheme = asked.get("scheme", own.scheme)
-        period_us = round(1e6 / self.rate_cap_hz) if "rate_cap_hz" in asked else own.frame_period_us
+        period_us = own.frame_period_us
+        if "rate_cap_hz" in asked:
+            # Up, as a rate that is the largest is not to be exceeded.
+            period_us = math.ceil(1e6 / self.rate_cap_hz - _ROUNDING_US)
         plain = ("scheme", "neighbour_order", "m", "threshold_counts", "touch_counts", "output", "led", "seed")
         own_values: dict[str, Any] = {setting.name: self._own_value(setting, own, m, scheme) for setting in _OWN}
         return replace(

@@ -45,6 +45,15 @@ def test_a_model_in_the_home_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: P
         load_model(Path("~nobody-of-this-name/m.npz"))
 
 
+@pytest.mark.parametrize(
+    ("rate_cap_hz", "period_us"),
+    [(300.0, 3334), (7e5, 2), (500.0, 2000), (1e6 / 333, 333), (1.0, 1_000_000), (1e6, 1)],
+)
+def test_the_rate_is_never_above_its_cap(rate_cap_hz: float, period_us: int) -> None:
+    wanted = BoardParameters(rate_cap_hz=rate_cap_hz).wanted(BoardSettings())
+    assert wanted.frame_period_us == period_us
+
+
 @given(st.integers(1, 1024), st.integers(1, 1024), st.sampled_from(["tracking", "hybrid", "adaptive"]), st.data())
 def test_quotas_always_fit_the_frame(own_m: int, m: int, scheme: str, data: st.DataObject) -> None:
     own = BoardSettings(
