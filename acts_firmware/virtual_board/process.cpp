@@ -163,18 +163,20 @@ bool Process::wait_for_frame() {
     const std::int64_t now = now_ns(CLOCK_MONOTONIC);
     take_faults(now);
     if (frozen_) {
+      let_time_pass(now);
       sleep_until(std::min(frozen_until_ns_, now + kNapNs));
       continue;
     }
     if (!field_->refresh(now)) {
       // As frozen: a board that sent frames of a dead world would tell the host of a touch that is none.
       stands_still_ = true;
+      let_time_pass(now);
       sleep_until(now + kNapNs);
       continue;
     }
     if (stands_still_) {
       stands_still_ = false;
-      start_ns_ = time_.to_board_ns(now);
+      let_time_pass(now);
     }
     const std::int64_t wake_ns = time_.to_host_ns(start_ns_ + duration_ns_);
     if (now >= wake_ns) {
@@ -187,6 +189,12 @@ bool Process::wait_for_frame() {
     }
   }
   return false;
+}
+
+void Process::let_time_pass(std::int64_t monotonic_ns) {
+  start_ns_ = time_.to_board_ns(monotonic_ns);
+  board_->begin_frame(start_ns_, sample_ns_);
+  firmware_->keep_time();
 }
 
 bool Process::serve_terminal() {

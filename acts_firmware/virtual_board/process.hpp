@@ -41,6 +41,8 @@ class Process {
   bool ended();
   // Until the frame that begins at start_ns_ is over; false when the process is to end.
   bool wait_for_frame();
+  // The board's time goes on to now without a frame, and the next frame begins then.
+  void let_time_pass(std::int64_t monotonic_ns);
   // True where the host has changed the times of the next frame.
   bool serve_terminal();
   bool hear_host();

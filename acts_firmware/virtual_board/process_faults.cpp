@@ -83,7 +83,7 @@ void Process::end_faults(std::int64_t monotonic_ns) {
     unplugged_.reset();
   }
   if (frozen_ && monotonic_ns >= frozen_until_ns_) {
-    start_ns_ = time_.to_board_ns(monotonic_ns);
+    let_time_pass(monotonic_ns);
     report(*frozen_, true);
     frozen_.reset();
   }

@@ -57,6 +57,9 @@ class Firmware {
   // Frames that could not be measured in time: their numbers are used up, and they count as overruns.
   void skip_frames(std::uint32_t count);
 
+  // Looks at the clock. Due at least once in 71 min, the wrap of micros(), where no frames are measured.
+  void keep_time() { clock_.extend(board_.micros()); }
+
   // A host has begun to read: forget what is left of the last one's stream and start with a delimiter. Settings and
   // model stay.
   void start_stream();

@@ -162,6 +162,37 @@ def test_a_frozen_board_makes_no_frames(board: BoardProcess) -> None:
     assert max(steps) >= 399_000
 
 
+def test_a_query_that_waited_for_a_frozen_board_is_answered_with_the_time_by_then(board: BoardProcess) -> None:
+    replies: list[BoardMessage] = []
+    board.decoder = StreamDecoder(on_message=replies.append)
+    port = board.open_port()
+    board.read_frames(1)
+    inject(board, "freeze:1")
+    began = event(board, "freeze:1", over=False)
+    os.write(port, encode_query(1))
+    event(board, "freeze:1", over=True)
+    deadline = time.monotonic() + DEADLINE_S
+    while not replies:
+        assert time.monotonic() < deadline, "no reply"
+        board.read_frames(1)
+    (reply,) = replies
+    assert isinstance(reply, Reply)
+    began_us = (began["monotonic_ns"] - board.start["epoch_monotonic_ns"]) // 1000
+    assert reply.state.uptime_us >= began_us + 1_000_000
+
+
+def test_a_pause_longer_than_the_clock_wraps_is_counted_whole(board: BoardProcess) -> None:
+    inject(board, "freeze:1")
+    event(board, "freeze:1", over=False)
+    # Two hours in all; micros() wraps after 71 minutes.
+    for _ in range(2):
+        inject(board, "jump:3600")
+        line = board.status()
+        while (line["fault"], line["over"]) != ("jump:3600", True):
+            line = board.status()
+    board.read_until(lambda frame: frame.board_us > 7_200_000_000)
+
+
 @pytest.mark.parametrize(("fault", "step_us"), [("jump:30", 30_000_000), ("jump:-2", 2**32 - 2_000_000)])
 def test_a_jump_of_the_clock(board: BoardProcess, fault: str, step_us: int) -> None:
     frames = play(board, fault)

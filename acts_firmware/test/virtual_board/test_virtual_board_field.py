@@ -21,6 +21,7 @@ from core_library import installed
 from numpy.typing import NDArray
 
 from acts_core.frames import SampleFrame
+from acts_core.wire import BoardMessage, Reply, StreamDecoder, encode_query
 from acts_sim.shared import TimedRingWriter
 
 ROWS, COLS = 6, 5
@@ -148,6 +149,32 @@ def test_a_world_that_stands_still_is_told_and_nothing_is_measured_of_it(tmp_pat
     # As of a frozen board, there are none that would have to be missed.
     for before, after in pairwise(frames):
         assert after.sequence - before.sequence - 1 == after.overruns - before.overruns
+
+
+def test_a_query_that_waited_for_the_world_is_answered_with_the_time_by_then(tmp_path: Path) -> None:
+    ring = tmp_path / "field.ring"
+    replies: list[BoardMessage] = []
+    with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+        board.decoder = StreamDecoder(on_message=replies.append)
+        port = board.open_port()
+        with pressed(ring, np.full(TAXELS, 300.0)):
+            board.read_until(partial(is_all, 300))
+        frames: list[SampleFrame] = []
+        deadline = time.monotonic() + DEADLINE_S
+        while "no frames until it goes on" not in board.errors.read_text():
+            assert time.monotonic() < deadline, "it tells nothing of the dead world"
+            if select.select([port], [], [], 0.01)[0]:
+                frames += board.decoder.feed(os.read(port, 65536))
+        os.write(port, encode_query(1))
+        with pressed(ring, np.full(TAXELS, 400.0)):
+            while not (replies and is_all(400, frames[-1])):
+                assert time.monotonic() < deadline, "no reply"
+                frames += board.decoder.feed(board.read_bytes())
+    (reply,) = replies
+    assert isinstance(reply, Reply)
+    last = [frame for frame in frames if is_all(300, frame)][-1]
+    # It looks at the world again after 50 ms.
+    assert reply.state.uptime_us >= last.board_us + 50_000
 
 
 def test_a_ring_that_is_written_all_the_time_is_never_torn(tmp_path: Path) -> None:
