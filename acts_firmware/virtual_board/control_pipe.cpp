@@ -19,6 +19,20 @@ namespace acts {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Whether a process reads the pipe at a path; that of a board that was killed nobody does.
+bool is_read(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) {
+    return false;
+  }
+  close(descriptor);
+  return true;
+}
+
+}  // namespace
+
 ControlPipe::ControlPipe(const std::string& path) : path_(path) {
   std::error_code error;
   if (fs::path(path).has_parent_path()) {
@@ -27,6 +41,9 @@ ControlPipe::ControlPipe(const std::string& path) : path_(path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status) && !fs::is_fifo(status)) {
     throw OptionError("--control " + path + ": something else than a named pipe is there; remove it");
+  }
+  if (fs::exists(status) && is_read(path)) {
+    throw OptionError("--control " + path + ": in use by a running board; end that one, or give another path");
   }
   fs::remove(path, error);  // of a board that was killed
   if (mkfifo(path.c_str(), 0600) != 0) {

@@ -9,7 +9,7 @@
 
 namespace acts {
 
-// Made at the start, removed at the end. Throws std::runtime_error where it cannot be made.
+// Made at the start, removed at the end. Throws std::runtime_error where it cannot be made, or another board has it.
 class ControlPipe {
  public:
   explicit ControlPipe(const std::string& path);

@@ -285,6 +285,29 @@ def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> Non
         assert not (tmp_path / "control").exists()
 
 
+def test_control_of_a_running_board_is_left_to_it(board: BoardProcess, tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    command = [installed("virtual_board"), "--link", str(tmp_path / "other"), "--control", str(control)]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2
+    assert f"--control {control}: in use by a running board" in result.stderr
+    for fault in ("freeze:0", "freeze:0.01"):
+        inject(board, fault)
+        event(board, fault, over=False)
+        event(board, fault, over=True)
+
+
+def test_control_of_a_killed_board_is_taken_over(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with BoardProcess(tmp_path, "--control", control) as killed:
+        killed.process.kill()
+        killed.process.wait(DEADLINE_S)
+    assert control.is_fifo()
+    with BoardProcess(tmp_path, "--control", control) as board:
+        inject(board, "freeze:0")
+        event(board, "freeze:0", over=False)
+
+
 @pytest.mark.parametrize(
     ("fault", "message"),
     [
