@@ -287,7 +287,7 @@ def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> Non
 
 def test_control_of_a_running_board_is_left_to_it(board: BoardProcess, tmp_path: Path) -> None:
     control = tmp_path / "control"
-    command = [installed("virtual_board"), "--link", str(tmp_path / "other"), "--control", str(control)]
+    command = [str(installed("virtual_board")), "--link", str(tmp_path / "other"), "--control", str(control)]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30)
     assert result.returncode == 2
     assert f"--control {control}: in use by a running board" in result.stderr

@@ -145,8 +145,11 @@ bool Claim::lock() {
 bool Claim::is_lock() const {
   std::array<char, kLongestLock + 1> content{};
   const ssize_t length = pread(file_, content.data(), content.size(), 0);
-  return length >= 0 && static_cast<std::size_t>(length) <= kLongestLock &&
-         std::all_of(content.begin(), content.begin() + length, [](char c) { return c == '\n' || (c >= '0' && c <= '9'); });
+  if (length < 0 || static_cast<std::size_t>(length) > kLongestLock) {
+    return false;
+  }
+  return std::all_of(content.begin(), content.begin() + length,
+                     [](char c) { return c == '\n' || (c >= '0' && c <= '9'); });
 }
 
 std::string Claim::holder() const {

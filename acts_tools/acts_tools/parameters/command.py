@@ -124,7 +124,10 @@ def _typed(descriptor: ParameterDescriptor, text: str) -> bool | int | float | s
         if kind == ParameterType.PARAMETER_DOUBLE:
             return float(text)
     except (KeyError, ValueError) as error:
-        kinds = {ParameterType.PARAMETER_BOOL: "true or false", ParameterType.PARAMETER_INTEGER: "a whole number of 64 bits"}
+        kinds = {
+            ParameterType.PARAMETER_BOOL: "true or false",
+            ParameterType.PARAMETER_INTEGER: "a whole number of 64 bits",
+        }
         needed = kinds.get(kind, "a number")
         raise SettingsError(f"{descriptor.name} = '{text}': needed is {needed}") from error
     raise SettingsError(f"{descriptor.name} is neither a number, text, nor true or false: set it in a params file")
