@@ -20,6 +20,20 @@ from acts_ros.bags.rosbag2_format import McapFile, Rosbag2Writer
 _SET_BACK_NS = 100_000_000
 
 
+def require_new(path: Path) -> None:
+    """Refuse a path at which there is something already.
+
+    Raises
+    ------
+    RecordingError
+        There is.
+    OSError
+        It cannot be looked at, as where its name is too long.
+    """
+    if path.exists():
+        raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder")
+
+
 class BagWriter:
     """An MCAP bag in rosbag2's layout. After a failed write, `write` and `flush` raise the error again.
 
@@ -37,8 +51,7 @@ class BagWriter:
     """
 
     def __init__(self, path: Path, recorder: str = "ACTS") -> None:
-        if path.exists():
-            raise RecordingError(f"'{path}' exists already and is not overwritten: choose another folder")
+        require_new(path)
         self.path = path
         self._last_stamp_ns = self._ahead_ns = 0
         self._failure: RecordingError | None = None

@@ -74,11 +74,12 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     require_rosbags()
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags.recorder import Recorder
-    from acts_ros.bags.writing import BagWriter
+    from acts_ros.bags.writing import BagWriter, require_new
     from acts_ros.executor import spin_for
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
+    require_new(path)
     with (
         StopFlag() as stop,
         command_node("acts_recorder") as (node, executor),

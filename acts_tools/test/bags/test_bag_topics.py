@@ -36,6 +36,8 @@ from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
 
+BEYOND_ALL_DOMAINS = 300
+
 
 def subscribed(probe: Probe, publishers: list[Publisher]) -> None:
     probe.wait_for(
@@ -222,7 +224,7 @@ def test_wrong_words_are_refused_in_one_line(tmp_path: Path, words: list[str], m
 
 
 def test_a_recording_that_cannot_begin_leaves_nothing_behind(tmp_path: Path) -> None:
-    with acts("record", "-o", str(tmp_path / "bag"), "-a", domain_id=300) as process:
+    with acts("record", "-o", str(tmp_path / "bag"), "-a", domain_id=BEYOND_ALL_DOMAINS) as process:
         output, _ = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1
     assert "ROS_DOMAIN_ID" in output

@@ -13,6 +13,7 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from acts_core.array import MAX_SIDE
 from acts_view.skin.history import History, Place
 from acts_view.skin.snapshot import Frame, Sample, SkinShape, describe_skin, encode_frame
 from acts_view.web.codec import encode
@@ -51,7 +52,9 @@ class _Skin:
             self._heard_s = time.monotonic() if samples or frame.image is not None else None
         if not self._is_told and frame.image is not None:
             # As of a bag that is played without the node that knows: of the size of its image.
-            self._describe(SkinShape(rows=frame.image.shape[0], cols=frame.image.shape[1]))
+            rows, cols = frame.image.shape
+            if max(rows, cols) <= MAX_SIDE:
+                self._describe(SkinShape(rows=rows, cols=cols))
         self.frame = frame
         self.frames += 1
 

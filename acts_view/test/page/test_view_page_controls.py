@@ -94,7 +94,8 @@ def test_what_was_not_obeyed_does_not_stay_in_its_field_though_one_is_still_in_i
     name: str, given: str, real: str, play: Callable[..., Player], open_page: Callable[..., Page]
 ) -> None:
     player = play()
-    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "scheme": "tracking"}}}
+    player.status |= {"offers": [["set", "/plate"]], "schemes": ["raster", "tracking"]}
+    player.status |= {"settings": {"/plate": {"m": 55, "scheme": "tracking"}}}
     page = open_page(player)
     field = page.locator(f"#controls [data-name={name}]")
     expect(field).to_have_value(real)
