@@ -240,9 +240,7 @@ def test_a_skin_in_the_root_namespace_of_a_bag_is_shown_without_its_baseline(
     assert highest_at(source, 12) < 30
 
 
-def test_a_bag_counts_from_its_first_frame_where_other_topics_began_earlier(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_bag_counts_from_its_first_frame(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # The baseline 30 s before the first of five frames, by the recorder's clock.
     stamps_s = iter([1000, *range(1030, 1035)])
     monkeypatch.setattr(BagWriter, "_stamp_ns", lambda _: next(stamps_s) * 10**9)

@@ -260,14 +260,21 @@ class HeldReboots:
         bus.faults = ["overload"] * 4 + [""] * 12
 
 
-def test_a_release_while_a_motor_is_started_anew_is_obeyed_before_the_next_one_is(
-    made: Made, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.fixture
+def reboots(made: Made, monkeypatch: pytest.MonkeyPatch) -> HeldReboots:
+    """Of the made hand, which is enabled; the first reboot has begun."""
     bus, loop, until = made
     until(lambda: loop.status.phase is HandPhase.RELEASED)
     assert loop.enable() == ""
-    reboots = HeldReboots(bus, monkeypatch)
-    until(lambda: len(reboots.had_torque) == 1)
+    held = HeldReboots(bus, monkeypatch)
+    until(lambda: len(held.had_torque) == 1)
+    return held
+
+
+def test_a_release_while_a_motor_is_started_anew_is_obeyed_before_the_next_one_is(
+    made: Made, reboots: HeldReboots
+) -> None:
+    bus, loop, until = made
     asked = loop.ask_release()
     reboots.may_go_on.set()
     until(lambda: loop.status.recovered == 4)
@@ -280,13 +287,9 @@ def test_a_release_while_a_motor_is_started_anew_is_obeyed_before_the_next_one_i
 
 
 def test_a_loop_that_is_to_end_while_a_motor_is_started_anew_does_not_wait_for_the_next_one(
-    made: Made, monkeypatch: pytest.MonkeyPatch
+    made: Made, reboots: HeldReboots
 ) -> None:
     bus, loop, until = made
-    until(lambda: loop.status.phase is HandPhase.RELEASED)
-    assert loop.enable() == ""
-    reboots = HeldReboots(bus, monkeypatch)
-    until(lambda: len(reboots.had_torque) == 1)
     loop.close(timeout_s=0.0)
     reboots.may_go_on.set()
     until(lambda: loop.status.reason == "shutting down")
