@@ -71,9 +71,9 @@ class ArmInProcess:
         self.calls.append("disconnect")
 
 
-def wait_for(condition: Callable[[], bool], what: str) -> None:
-    """Poll until a condition holds."""
+def wait_for(condition: Callable[[], bool], what: str | Callable[[], str]) -> None:
+    """Poll until a condition holds. `what` tells of it at the end, where it does not."""
     deadline = time.monotonic() + DEADLINE_S
     while not condition():
-        assert time.monotonic() < deadline, f"waited in vain for: {what}"
+        assert time.monotonic() < deadline, f"waited in vain for: {what if isinstance(what, str) else what()}"
         time.sleep(0.002)

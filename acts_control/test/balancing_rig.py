@@ -20,6 +20,9 @@ from acts_control.robots.ur import UrRobot
 # without data the library ends the connection by itself.
 HELD_UP_S = 1.0
 _STOOD_STILL = "the robot has ended its program: this process stood still"
+# What the loop tells of a controller that was not scheduled, and what the simulated one tells of itself then.
+_NO_DATA = "no data from the robot"
+_NOT_SCHEDULED = "the process was not scheduled"
 
 
 class Arm(UrRobot):
@@ -61,6 +64,8 @@ class Rig:
         # How long steps were late in all, of those since the last start or pause [s].
         self.held_up_s = 0.0
         self._stepped_s = time.monotonic()
+        # How often the controller had told that it was not scheduled, at the last start.
+        self._not_scheduled = 0
         self.loop = ControlLoop(config, self.arm, time.time_ns)
         self.loop.look = self._feel
         stack.callback(self.loop.close)
@@ -76,7 +81,7 @@ class Rig:
         self.loop.reference = ReferenceReport(now_ns, Reference(0.0, 0.0))
 
     def await_phase(self, phase: Phase, timeout_s: float = 30.0) -> str:
-        wait_for(lambda: self.loop.status.phase is phase, f"{phase.name}, {self.loop.status}", timeout_s)
+        wait_for(lambda: self.loop.status.phase is phase, lambda: f"{phase.name}, {self.loop.status}", timeout_s)
         return self.loop.status.reason
 
     def balance(self) -> None:
@@ -84,15 +89,28 @@ class Rig:
 
         def is_tilted() -> bool:
             status = self.loop.status
-            if status.phase is Phase.STOPPED and (status.reason.startswith(_STOOD_STILL) or self.held_up_s > HELD_UP_S):
+            if self._was_held_up():
                 self.start_again()
             return status.phase is Phase.BALANCING and abs(status.tilt_measured_rad[1]) > 0.02
 
-        wait_for(is_tilted, f"a tilt, {self.loop.status}", 60.0)
+        wait_for(is_tilted, lambda: f"a tilt, {self.loop.status}", 60.0)
+
+    def _was_held_up(self) -> bool:
+        """Whether motion has ended because this machine held up this process, or that of the controller."""
+        status = self.loop.status
+        if status.phase is not Phase.STOPPED:
+            return False
+        if status.reason.startswith(_NO_DATA) and self._times_not_scheduled() > self._not_scheduled:
+            return True
+        return status.reason.startswith(_STOOD_STILL) or self.held_up_s > HELD_UP_S
+
+    def _times_not_scheduled(self) -> int:
+        return self.simulated.text().count(_NOT_SCHEDULED)
 
     def start_again(self) -> None:
         """Start anew, as after a stop."""
         self.held_up_s = 0.0
+        self._not_scheduled = self._times_not_scheduled()
         assert self.loop.start()
 
     def pause(self) -> None:

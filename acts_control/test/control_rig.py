@@ -38,12 +38,12 @@ HOOK_PORT = 30100
 START_TIMEOUT_S = 30.0
 
 
-def wait_for(condition: Callable[[], bool], what: str, timeout_s: float = 30.0) -> None:
-    """Poll until a condition holds."""
+def wait_for(condition: Callable[[], bool], what: str | Callable[[], str], timeout_s: float = 30.0) -> None:
+    """Poll until a condition holds. `what` tells of it at the end, where it does not."""
     deadline = time.monotonic() + timeout_s
     while not condition():
         if time.monotonic() > deadline:
-            raise AssertionError(f"waited {timeout_s} s in vain for: {what}")
+            raise AssertionError(f"waited {timeout_s} s in vain for: {what if isinstance(what, str) else what()}")
         time.sleep(0.005)
 
 
@@ -191,7 +191,7 @@ class Bench:
 
     def await_phase(self, phase: int, timeout_s: float = START_TIMEOUT_S) -> BalanceStatus:
         """Wait until the controller says so; the status."""
-        wait_for(lambda: self.phase == phase, f"state {phase}, it is {self.phase}", timeout_s)
+        wait_for(lambda: self.phase == phase, lambda: f"state {phase}, it is {self.phase}", timeout_s)
         return self.statuses[-1]
 
     def call(self, service: str) -> Trigger.Response:

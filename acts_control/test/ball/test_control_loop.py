@@ -60,11 +60,11 @@ def balance(loop: ControlLoop) -> None:
         feel(loop)
         return loop.status.phase is Phase.BALANCING and abs(loop.status.tilt_commanded_rad[1]) > 0.02
 
-    wait_for(tilted, f"balancing, {loop.status}")
+    wait_for(tilted, lambda: f"balancing, {loop.status}")
 
 
 def await_stop(loop: ControlLoop) -> str:
-    wait_for(lambda: loop.status.phase is Phase.STOPPED, f"a stop, {loop.status}")
+    wait_for(lambda: loop.status.phase is Phase.STOPPED, lambda: f"a stop, {loop.status}")
     return loop.status.reason
 
 
@@ -81,7 +81,7 @@ def test_from_connecting_to_balancing_and_back_to_level(arm: ArmInProcess, make:
         feel(loop)
         return loop.status.error_m == pytest.approx((0.02, 0.0), abs=1e-3) and arm.commands[-1][1] < 0.0
 
-    wait_for(is_brought_back, f"the ball where it is felt, and a tilt against it, {loop.status}")
+    wait_for(is_brought_back, lambda: f"the ball where it is felt, and a tilt against it, {loop.status}")
     assert loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
@@ -102,7 +102,7 @@ def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) 
         feel(loop)
         return loop.status.tilt_commanded_rad[1] == pytest.approx(-0.01, abs=1e-5)
 
-    wait_for(limited, f"the new limit, {loop.status}")
+    wait_for(limited, lambda: f"the new limit, {loop.status}")
     assert loop.status.phase is Phase.BALANCING
     tilts = [y for _, y in arm.commands[changed_at - 1 :]]
     # 1 rad/s to begin with, in steps of four periods at most.
@@ -113,7 +113,7 @@ def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) 
         feel(loop)
         return loop.status.tilt_commanded_rad == pytest.approx((0.0, 0.0), abs=1e-5)
 
-    wait_for(level, f"a level plate, {loop.status}")
+    wait_for(level, lambda: f"a level plate, {loop.status}")
 
 
 def test_a_robot_that_is_not_there_yet_is_tried_again(arm: ArmInProcess, make: Make) -> None:

@@ -46,7 +46,7 @@ def test_an_arm_that_is_made_ready_at_its_panel_does_not_move_before_it_is_start
         for line in before:
             simulated.ask_dashboard(line)
         rig = Rig(simulated.host, stack, simulated=simulated)
-        wait_for(lambda: words in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        wait_for(lambda: words in rig.loop.status.reason, lambda: f"the reason, {rig.loop.status}")
         reason = rig.await_phase(Phase.STOPPED)
         assert reason.endswith("switch the arm on, release its brakes, put it into remote control, then call start")
         for line in meanwhile:
@@ -58,7 +58,7 @@ def test_an_arm_that_is_made_ready_at_its_panel_does_not_move_before_it_is_start
         assert not {PROGRAM, MOVE_J} & set(rig.orders_since(0.0))
         assert simulated.state()["q_rad"] == pytest.approx(FAR, abs=1e-6)
         assert rig.loop.start()
-        wait_for(lambda: MOVE_J in rig.orders_since(0.0), f"the way to the level pose, {rig.loop.status}")
+        wait_for(lambda: MOVE_J in rig.orders_since(0.0), lambda: f"the way to the level pose, {rig.loop.status}")
 
 
 def test_connecting_that_is_given_up_leaves_no_program_on_the_robot(monkeypatch: pytest.MonkeyPatch) -> None:

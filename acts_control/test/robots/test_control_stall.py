@@ -117,8 +117,8 @@ def test_after_a_stall_only_what_is_asked_for_is_commanded(cases: list[tuple[flo
             assert state["q_rad"] == pytest.approx(aim, abs=1e-3)
             assert state["runtime"] == "STOPPED"
             assert rig.loop.status.phase is Phase.STOPPED
-            assert rig.loop.start()
-            rig.await_phase(Phase.BALANCING)
+            rig.start_again()
+            rig.balance()
 
     at_the_same_time(scenario, [(number, *case) for number, case in enumerate(cases, 1)])
 
@@ -154,11 +154,11 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
 
         monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe_and_pause)
         rig = Rig(host, stack, simulated=simulated)
-        wait_for(lambda: "watch: no answer" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        wait_for(lambda: "watch: no answer" in rig.loop.status.reason, lambda: f"the reason, {rig.loop.status}")
         assert rig.loop.status.phase is Phase.CONNECTING
         assert rig.arm.is_over
         monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe)
-        wait_for(lambda: "does it stand still?" in rig.loop.status.reason, f"the reason, {rig.loop.status}")
+        wait_for(lambda: "does it stand still?" in rig.loop.status.reason, lambda: f"the reason, {rig.loop.status}")
         monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", timeout_s)
         rig.resume()
         rig.balance()
