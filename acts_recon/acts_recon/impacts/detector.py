@@ -23,7 +23,8 @@ from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
 
 Array = NDArray[np.float64]
 
-_UNSEEN_S = 0.02
+# For how long a touch goes on that no sample speaks of: this, or so many frames.
+_UNSEEN_S, _UNSEEN_FRAMES = 0.02, 2.5
 _UNSURE_S = 0.001
 _NUMBERS = 2**32
 
@@ -86,6 +87,9 @@ class ImpactDetector:
         self._next_number = 1
         self._before_s: float | None = None
         self._frame_s = 0.0
+        self._period_s = 0.0
+        # Which taxels the image of the frame before shows pressed.
+        self._shown = np.zeros(geometry.size, dtype=bool)
 
     def reset(self) -> None:
         """Forget all touches, without telling of them again; numbers go on."""
@@ -93,6 +97,7 @@ class ImpactDetector:
         self._samples.reset()
         self._touches.clear()
         self._before_s = None
+        self._shown[:] = False
 
     def step(
         self,
@@ -133,6 +138,7 @@ class ImpactDetector:
         before_s = time_s - duration_s if self._before_s is None else self._before_s
         self._before_s = time_s
         self._frame_s = duration_s
+        self._period_s = time_s - before_s
         if age_s is not None and measured is not None:
             self._samples.add(time_s, duration_s, measured, age_s)
             is_sampled = True
@@ -142,6 +148,7 @@ class ImpactDetector:
         told = self._follow(found, time_s, before_s, is_sampled, image) if found else []
         if self._touches:
             told += self._end(time_s, time_s - before_s, image)
+        np.greater(image.ravel(), self._touch_counts, out=self._shown)
         return tuple(told)
 
     def _follow(
@@ -193,11 +200,14 @@ class ImpactDetector:
         if not is_sampled:
             touch.see(np.array([time_s]))
             return True
-        pressed_s, free_s = self._samples.near(*_whole(blobs), touch.patch)
+        # What bounces is gone before many of its taxels were measured: there each free sample counts.
+        is_short = time_s - touch.began_s <= self.config.impact_longest_s
+        pressed_s, is_left = self._samples.near(*_whole(blobs), touch.patch, None if is_short else self._shown)
         if pressed_s.size:
             touch.see(pressed_s)
-        # Where a frame has measured nothing there, it says nothing; but not for long.
-        is_unseen = not free_s.size and time_s - touch.last_sample_s <= _UNSEEN_S
+        # Where a frame has measured nothing that speaks against it, it says nothing; but not for long.
+        unseen_s = max(_UNSEEN_S, _UNSEEN_FRAMES * self._period_s)
+        is_unseen = not is_left and time_s - touch.last_sample_s <= unseen_s
         return bool(pressed_s.size) or bool(touch.frames_seen and is_unseen)
 
     def _patch(self, blob: TrackedBlob) -> int:

@@ -108,12 +108,24 @@ class RecentSamples:
         while self._frames[0][0] < time_s - self._memory_s:
             self._frames.popleft()
 
-    def near(self, x_m: float, y_m: float, reach_m: float, patch: int) -> tuple[Array, Array]:
-        """When samples of the newest frame near a place were measured pressed, and when not [s]."""
+    def near(
+        self, x_m: float, y_m: float, reach_m: float, patch: int, shown: NDArray[np.bool_] | None = None
+    ) -> tuple[Array, bool]:
+        """When samples of the newest frame near a place were measured pressed [s], and whether others were free.
+
+        Parameters
+        ----------
+        x_m, y_m, reach_m : float
+        patch : int
+        shown : np.ndarray [shape=(size,), dtype=bool], optional
+            Which taxels an earlier image shows pressed: others do not count as free. Around a contact that stays, there
+            are taxels that are never pressed.
+        """
         _, time_s, taxel, counts = self._frames[-1]
         near = self._lies_near(taxel, x_m, y_m, reach_m, patch)
         pressed = counts > self._touch_counts
-        return time_s[near & pressed], time_s[near & ~pressed]
+        free = near & ~pressed if shown is None else near & ~pressed & shown[taxel]
+        return time_s[near & pressed], bool(free.any())
 
     def has_come(self, x_m: float, y_m: float, reach_m: float, patch: int) -> bool:
         """Whether what presses near a place in the newest frame has come since the last reset.

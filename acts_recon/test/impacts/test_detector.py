@@ -106,6 +106,22 @@ def test_a_bounce_is_an_impact_also_where_the_frames_after_it_are_lost(lost_from
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.IMPACT)]
 
 
+@pytest.mark.parametrize(("scheme", "m"), [("hybrid", 55), ("random", 55), ("random", 128), ("adaptive", 55)])
+def test_what_rests_for_long_is_over_once(scheme: str, m: int) -> None:
+    """Where a frame measured none of it but its rim, it was taken for gone."""
+    palm, finger = 500 * bump(32, 32, 20, 16, 4.0), 400 * bump(32, 32, 6, 8, 1.5)
+
+    def pressure(time_s: float) -> Array:
+        return min(max((time_s - 0.2) / 0.03, 0.0), 1.0) * (palm + finger) * (time_s < 2.0)
+
+    settings = ReconstructionSettings(touch_counts=25)
+    told = told_of(settings, SamplingConfig(scheme, 32, 32, m, threshold_counts=25), pressure, 2.2)
+    over = [one for one in told if (one.is_over and one.onset_s > 100.25) or one.duration_s > 0.1]
+    assert [one.duration_s for one in over] == pytest.approx([1.8] * len(over), abs=0.03)
+    assert {one.kind for one in over} <= {Kind.PRESS, Kind.STEP}
+    assert len(over) == (1 if scheme == "adaptive" else 2)  # with few samples the two lie near enough to be one
+
+
 @pytest.mark.parametrize(("scheme", "m"), [("tracking", 64), ("adaptive", 64), ("random", 64), ("raster", 1024)])
 @pytest.mark.parametrize("width", [0.8, 4.0])
 def test_what_rests_when_frames_begin_to_come_has_not_begun_then(scheme: str, m: int, width: float) -> None:
