@@ -117,14 +117,19 @@ class BoardProcess:
                     return frame
         raise AssertionError(f"no such frame within {DEADLINE_S} s")
 
-    def stand_still(self, for_s: float) -> int:
-        """Stop the process and let it go on; returns when that was, CLOCK_MONOTONIC [ns]."""
+    def stand_still(self, for_s: float) -> tuple[int, float]:
+        """Stop the process and let it go on; returns when that was, CLOCK_MONOTONIC [ns], and how long it took [s].
+
+        Where the machine holds up this process, it takes longer than asked for.
+        """
+        began_ns = time.monotonic_ns()
         self.process.send_signal(signal.SIGSTOP)
-        due_ns = time.monotonic_ns() + int(for_s * 1e9)
+        due_ns = began_ns + int(for_s * 1e9)
         while time.monotonic_ns() < due_ns:
             time.sleep(0.01)
         self.process.send_signal(signal.SIGCONT)
-        return due_ns
+        ended_ns = time.monotonic_ns()
+        return ended_ns, (ended_ns - began_ns) * 1e-9
 
     def terminate(self, number: signal.Signals = signal.SIGTERM) -> int:
         self.process.send_signal(number)

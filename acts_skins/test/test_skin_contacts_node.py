@@ -158,7 +158,10 @@ def test_contacts_of_two_skins_in_one_frame_and_a_skin_lost_and_found(robot: Rob
         statuses = [status for array in reports for status in array.status if status.name == "skin_contacts"]
         return any(words in status.message and status.level == DiagnosticStatus.WARN for status in statuses)
 
-    with running(tmp_path, 163) as process:
+    # Longer than this machine stands still.
+    patient = ("stale_after_s=1.0", "lost_after_s=3.0")
+    words = [word for setting in patient for word in ("--set", f"skin_contacts.{setting}")]
+    with running(tmp_path, 163, *words) as process:
         robot.until(lambda: bool(robot.merged) and len(robot.merged[-1].contacts) == 3, both)
         message = robot.merged[-1]
         assert message.header.frame_id == "torso"

@@ -73,7 +73,7 @@ class BusyHost(Host):
     def __init__(self, path: Path, *, gets_on: bool) -> None:
         self._gets_on = gets_on
         self._stands_still, self._goes_on = threading.Event(), threading.Event()
-        super().__init__(path, reply_timeout_s=0.02)
+        super().__init__(path, reply_timeout_s=0.1)
         assert self._stands_still.wait(60.0)
 
     def _take(self, frames: list[SampleFrame], arrival_ns: int) -> None:
@@ -111,13 +111,14 @@ def test_a_machine_that_does_not_get_to_reading_says_so_of_itself(board: Virtual
 def test_a_board_that_has_answered_before_is_no_older_firmware(tmp_path: Path) -> None:
     control = tmp_path / "control"
     with VirtualBoard(tmp_path / "board", "--control", str(control)) as board:
-        host = Host(board.link, reply_timeout_s=0.05)
+        host = Host(board.link)
 
         def ask_until_it_is_frozen() -> None:
             for _ in range(1000):
                 host.link.query()
 
         host.link.query()
+        host.link._timeout_s = 0.05
         control.write_text("freeze:60\n")
         with pytest.raises(NoAnswerError, match="does not answer commands any more"):
             ask_until_it_is_frozen()

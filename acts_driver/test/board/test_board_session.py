@@ -269,6 +269,7 @@ def test_a_model_on_its_way_is_not_told_as_missing_where_the_board_was_not_heard
         """This machine gets to reading nothing from the first piece of the upload on."""
         if isinstance(message, Reply) and message.state.uploading and not unread:
             is_busy.set()
+            link._timeout_s = 0.02
         if is_busy.is_set():
             unread.append(message)
         else:
@@ -276,7 +277,7 @@ def test_a_model_on_its_way_is_not_told_as_missing_where_the_board_was_not_heard
 
     monkeypatch.setattr(BoardLink, "receive", read)
     monkeypatch.setattr(Host, "catch_up", lambda host, timeout_s: not is_busy.is_set())
-    host = Host(board.link, reply_timeout_s=0.02)
+    host = Host(board.link)
     session = host.start_session(output="image", m=64, model=str(path))
     assert session.status.problem == ""
     # With the fourth, one round is over in which the board was asked three times and not heard.

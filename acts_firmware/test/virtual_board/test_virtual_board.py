@@ -108,13 +108,17 @@ def test_a_port_that_is_not_read_drops_whole_frames_and_says_how_many(tmp_path: 
 
 @pytest.mark.parametrize(("stall_s", "skips"), [(0.12, False), (0.8, True)])
 def test_a_stalled_board_catches_up_or_skips(tmp_path: Path, stall_s: float, skips: bool) -> None:
-    with BoardProcess(tmp_path) as board:
-        board.open_port()
-        frames = board.read_frames(20)
-        due_ns = board.stand_still(stall_s)
-        while board.start["epoch_monotonic_ns"] + frames[-1].board_us * 1000 < due_ns:
-            frames += board.read_frames(1)
-    check_stream(frames)
+    while True:
+        with BoardProcess(tmp_path) as board:
+            board.open_port()
+            frames = board.read_frames(20)
+            ended_ns, stood_s = board.stand_still(stall_s)
+            while board.start["epoch_monotonic_ns"] + frames[-1].board_us * 1000 < ended_ns:
+                frames += board.read_frames(1)
+        check_stream(frames)
+        # Where the machine prolongs a stall that is to be made up for, another board is to.
+        if skips or stood_s < 0.2:
+            break
     assert (frames[-1].overruns > 0) == skips
 
 

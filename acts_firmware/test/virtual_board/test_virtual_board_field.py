@@ -83,9 +83,10 @@ def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path, stands_sti
             frames = board.read_frames(150)
             if stands_still:
                 # What it then makes up for is what it would have measured meanwhile.
-                board.stand_still(0.12)
+                _, stood_s = board.stand_still(0.12)
                 frames += board.read_frames(150)
-                assert frames[-1].overruns == frames[0].overruns
+                # The machine may prolong it beyond what is made up for.
+                assert frames[-1].overruns == frames[0].overruns or stood_s > 0.2
             known = [frame for frame in frames if measured_at_ns(board, frame)[-1] < times_ns[-1]]
             assert known
             for frame in known:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 DOMAIN_ID = 222
 DEADLINE_S = 30.0
-PATIENCE_S = 0.5
+PATIENCE_S = 3.0
 BUTTONS = {
     "/plate": {"tare": "Tare", "calibrate": "Calibrate"},
     "": {"start": "Start balancing", "stop": "Stop balancing"},

@@ -91,18 +91,24 @@ def test_a_trail_stays(player: Player, open_page: Callable[..., Page]) -> None:
     shown(player, col=10)
     page = opened(player, open_page)
     x = page.locator("[data-number=x]")
-    expect(x).to_have_text(f"{1000 * (10 - 15.5) * PITCH_M:.1f}")
-    shown(player, col=15)
-    expect(x).to_have_text(f"{1000 * (15 - 15.5) * PITCH_M:.1f}")
-    page.keyboard.press(" ")
-    paused_ms = page.evaluate("performance.now()")
     opacity = """() => {
       const canvas = document.querySelector("canvas.marks"), side = canvas.width / 32;
       const copy = new OffscreenCanvas(1, 1).getContext("2d");
       copy.drawImage(canvas, Math.round(13 * side), Math.round(8.5 * side), 1, 1, 0, 0, 1, 1);
       return copy.getImageData(0, 0, 1, 1).data[3];
     }"""
-    before = page.evaluate(opacity)
+    before = 0
+    # Again where this machine took longer for the way than a trail stays.
+    for _ in range(10):
+        for col in (10, 15):
+            shown(player, col=col)
+            expect(x).to_have_text(f"{1000 * (col - 15.5) * PITCH_M:.1f}")
+        page.keyboard.press(" ")
+        paused_ms = page.evaluate("performance.now()")
+        before = page.evaluate(opacity)
+        if before > 0:
+            break
+        page.keyboard.press(" ")
     assert before > 0
     # Longer than a trail is.
     page.wait_for_function("(from_ms) => performance.now() - from_ms > 1300", arg=paused_ms)
