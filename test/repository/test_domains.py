@@ -87,6 +87,22 @@ def test_files_name_the_domains_that_they_use() -> None:
     assert not silent
 
 
+def numbers(tree: ast.Module) -> set[int]:
+    """What stands in the code as a number, or as a text of digits."""
+    values = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    return {int(value) for value in values if type(value) is int or (isinstance(value, str) and value.isdecimal())}
+
+
+def test_files_use_the_domains_that_they_name() -> None:
+    """A helper of tests may take a domain in a way that is not looked for above; another one there shows here."""
+    unused = {}
+    for path, tree in sources().items():
+        left = named(ast.get_docstring(tree) or "") - numbers(tree)
+        if left:
+            unused[str(path.relative_to(ROOT))] = left
+    assert not unused
+
+
 def test_no_domain_is_named_by_two_files() -> None:
     owners = defaultdict(list)
     for path, tree in sources().items():

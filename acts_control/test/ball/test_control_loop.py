@@ -208,8 +208,9 @@ def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
 
 
 def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:
-    loop = make(touch_stale_after_s=0.1, touch_stop_after_s=0.3)
+    loop = make()
     balance(loop)
+    loop.change(LoopConfig(touch_stale_after_s=0.1, touch_stop_after_s=0.3))
     reason = await_stop(loop)
     assert reason.startswith("touch is stale: the newest is")
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")

@@ -42,6 +42,9 @@ SETTINGS = """
     homing_acceleration_rad_s2: 8.0
 """
 
+# The program that moves the arm, moveJ and servoJ.
+MOTIONS = ("program rtde_control", "command 1", "command 11")
+
 
 def balancing_process(
     tmp_path: Path, robot: SimulatedRobot, domain: int, trajectory: str = "hold", touch_stop_after_s: float = 1.0
@@ -164,13 +167,14 @@ def test_a_stop_of_the_robot_ends_motion_until_it_is_released_and_started(
             robot.hook(hook)
             stopped = bench.await_phase(STOPPED)
             assert stopped.reason == reason
-            steps = bench.statuses[-1].steps
+            stopped_s = float(robot.state()["time_s"])
             # Still held: a start is answered with the reason, and nothing moves.
             assert bench.call("start").success
             wait_for(
                 lambda: bench.phase == STOPPED and "release it at the robot" in bench.statuses[-1].reason, "the refusal"
             )
-            assert bench.statuses[-1].steps <= steps
+            assert bench.statuses[-1].steps == 0
+            assert not [words for at_s, _port, words in robot.orders() if at_s > stopped_s and words in MOTIONS]
             robot.hook("clear")
             assert bench.call("start").success
             bench.await_phase(BALANCING)
