@@ -259,10 +259,10 @@ class HandWorld:
     def _substep(self, dt_s: float) -> None:
         model, data = self._model, self._data
         self.time_s += dt_s
+        # Also when nothing shakes: another shake may have ended this one in the middle of a swing.
+        model.opt.gravity[:] = self._gravity
         if self.disturbances.is_shaking:
-            model.opt.gravity[:] = self._gravity - self.disturbances.shaking(dt_s)
-            if not self.disturbances.is_shaking:
-                model.opt.gravity[:] = self._gravity
+            model.opt.gravity[:] -= self.disturbances.shaking(dt_s)
         self.tip.advance(dt_s)
         mujoco.mj_step1(model, data)
         self.tip.measure()

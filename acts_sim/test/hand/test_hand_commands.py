@@ -93,6 +93,15 @@ def test_a_shaken_hand_ends_where_it_was() -> None:
     assert run(world, 0.05).gravity_m_s2 == before
 
 
+def test_a_shake_that_another_one_ends_leaves_gravity_as_it_was() -> None:
+    world = HandWorld(HandWorldConfig(object="none"))
+    before = world.truth.gravity_m_s2
+    carry_out(world, "shake z 20 5 10")
+    assert run(world, 0.15).gravity_m_s2 != before
+    carry_out(world, "shake z 0 1 0")
+    assert run(world, STEP_S).gravity_m_s2 == before
+
+
 def test_motors_fail_by_the_same_words_as_on_the_bus() -> None:
     world = HandWorld(HandWorldConfig(object="none", overload_after_s=0.2))
     switch_on(world)
