@@ -74,24 +74,31 @@ def _needs_object(world: HandWorld) -> None:
         raise SettingsError("there is no object in this world")
 
 
-def _let_go(world: HandWorld, _words: list[str]) -> None:
+def _needs_object_in_hand(world: HandWorld, word: str) -> None:
     _needs_object(world)
+    if world.is_lost:
+        raise SettingsError(f"{word}: the object has fallen out of the hand; put it back first")
+
+
+def _let_go(world: HandWorld, _words: list[str]) -> None:
+    _needs_object_in_hand(world, "let_go")
     world.holder.let_go()
 
 
 def _hold(world: HandWorld, _words: list[str]) -> None:
-    _needs_object(world)
+    _needs_object_in_hand(world, "hold")
     world.hold()
 
 
 def _put(world: HandWorld, words: list[str]) -> None:
     _needs_object(world)
-    x, y, height = (_number(words, k, 0.0, _MOST_MM) for k in range(3))
+    x, y = (_number(words, k, 0.0, _MOST_MM) for k in range(2))
+    height = _number(words, 2, 0.0, _MOST_MM, 0.0)
     world.put(x * _MM, y * _MM, height * _MM, held=world.holder.holding)
 
 
 def _move(world: HandWorld, words: list[str]) -> None:
-    _needs_object(world)
+    _needs_object_in_hand(world, "move")
     way, turn = _vector(words, 0, _MOST_MM) * _MM, np.radians(_vector(words, 3, _MOST_DEG))
     duration_s = _number(words, 6, 1.0, _MOST_S, 0.01)
     if not world.holder.holding:

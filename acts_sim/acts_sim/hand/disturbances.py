@@ -50,6 +50,11 @@ class Disturbances:
         self._goal_n = force_n.copy()
         self._rate_n_s = float(np.linalg.norm(self._goal_n - self.load_n)) / max(ramp_s, 1e-6)
 
+    def stop_pulling(self) -> None:
+        """Pull no more, at once."""
+        self.load_n = self._goal_n = np.zeros(3)
+        self._rate_n_s = 0.0
+
     def pull_down(self, times_weight: float, ramp_s: float) -> None:
         """Pull the object downwards with a multiple of its weight, which rises within `ramp_s`."""
         self.pull(times_weight * self._weight_n * self._down, ramp_s)

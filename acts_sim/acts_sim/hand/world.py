@@ -34,6 +34,8 @@ STEP_S = 0.002
 # Of the physics in a step: foam that is pressed hard, or by a light object, is a stiff spring with much damping.
 _SUBSTEPS = 4
 _SMALLEST_KG = 0.01
+# The cover rounds off 1 mm and the foam is 3 mm thick: smaller objects press with more than they weigh, or fall through.
+_SMALLEST_M, _LARGEST_M = 0.005, 0.045
 
 _GRAVITY_M_S2 = 9.81
 
@@ -54,7 +56,7 @@ _UNSTABLE = (
 )
 
 _LOST_M = 0.15
-"""An object further than this from the hand has fallen out [m]."""
+"""An object that nothing holds and that is further than this from the middle of the grasp has fallen out [m]."""
 
 _GRASP_MIDDLE_M = (-0.02, -0.037, -0.07)
 
@@ -67,7 +69,10 @@ class HandWorldConfig(SkinConfig):
     pose: str = setting("palm_up", "orientation of the hand", choices=tuple(_DOWN))
     object: str = setting("sphere", "object in the hand", choices=("none", *OBJECTS))
     object_size_m: float = setting(
-        0.0, "radius, or half the width of a box [m]; 0: default of the object", minimum=0.0, maximum=0.045
+        0.0,
+        "radius, or half the width of a box, 0.005 or more [m]; 0: default of the object",
+        minimum=0.0,
+        maximum=_LARGEST_M,
     )
     object_mass_kg: float = setting(0.0, "mass of the object, 0.01 or more [kg]; 0: default", minimum=0.0, maximum=2.0)
     object_x_m: float = setting(
@@ -92,10 +97,31 @@ class HandWorldConfig(SkinConfig):
         validate(self)
         if 0.0 < self.object_mass_kg < _SMALLEST_KG:
             raise SettingsError(f"object_mass_kg = {self.object_mass_kg}: allowed is 0, or {_SMALLEST_KG} to 2 kg")
+        if 0.0 < self.object_size_m < _SMALLEST_M:
+            raise SettingsError(
+                f"object_size_m = {self.object_size_m}: allowed is 0, or {_SMALLEST_M} to {_LARGEST_M} m"
+            )
         for name in describe(HandWorldConfig):
             value = getattr(self, name)
             if self.object == "none" and name.startswith("object_") and value != default_of(HandWorldConfig, name):
                 raise SettingsError(f"{name} = {value}: there is no object; choose one, or leave {name} out")
+        if self.object != "none":
+            thing = held_object(self.object, self.object_size_m, self.object_mass_kg)
+            _require_in_reach(thing, self.object_x_m, self.object_y_m, self.object_height_m)
+
+
+def _require_in_reach(thing: HeldObject, x_m: float, y_m: float, height_m: float) -> NDArray[np.float64]:
+    """The place of an object above the palm, np.ndarray [shape=(3,)] [m]; refuse one where it would be lost at once."""
+    where = thing.on_palm(x_m, y_m)
+    where[2] -= height_m
+    far_m = math.dist(where.tolist(), _GRASP_MIDDLE_M)
+    if far_m > _LOST_M:
+        raise SettingsError(
+            f"an object at x = {1e3 * x_m:g} mm, y = {1e3 * y_m:g} mm, height = {1e3 * height_m:g} mm is "
+            f"{1e3 * far_m:.0f} mm from the middle of the grasp; allowed is up to {1e3 * _LOST_M:g} mm, further away "
+            "it counts as fallen out"
+        )
+    return where
 
 
 class HandWorld:
@@ -200,6 +226,11 @@ class HandWorld:
         """Whether there is an object."""
         return self._thing is not None
 
+    @property
+    def is_lost(self) -> bool:
+        """Whether the object has fallen out of the hand; it then stays where it is until `put`."""
+        return self._lost
+
     def hold(self) -> None:
         """Hold the object at its present pose with springs."""
         if self._thing is not None:
@@ -215,14 +246,20 @@ class HandWorld:
             )
 
     def put(self, x_m: float, y_m: float, height_m: float = 0.0, *, held: bool = False) -> None:
-        """Put the object on the palm, at an offset from its centre; held by springs, or free."""
+        """Put the object on the palm, at an offset from its centre; held by springs, or free. Nothing pulls it then.
+
+        Raises
+        ------
+        SettingsError
+            For a place so far away that the object would count as fallen out.
+        """
         if self._thing is None:
             return
-        where = self._thing.on_palm(x_m, y_m)
-        where[2] -= height_m
+        where = _require_in_reach(self._thing, x_m, y_m, height_m)
         self._data.qpos[-7:] = (*where, 1.0, 0.0, 0.0, 0.0)
         self._data.qvel[-6:] = 0.0
         self._lost = False
+        self.disturbances.stop_pulling()
         if held:
             self.holder.hold(where, np.array([1.0, 0.0, 0.0, 0.0]))
         else:
@@ -253,7 +290,7 @@ class HandWorld:
         if any(data.warning[kind].number for kind in _UNSTABLE):
             raise ActsError(f"the hand's world is unstable after {self.time_s:.3f} s; the object may be too light")
         self._give_shafts()
-        if self._body >= 0 and not self._lost:
+        if self._body >= 0 and not self._lost and not self.holder.holding:
             self._lost = math.dist(data.qpos[-7:-4].tolist(), _GRASP_MIDDLE_M) > _LOST_M
 
     def _substep(self, dt_s: float) -> None:

@@ -74,6 +74,64 @@ def test_what_is_let_go_falls_out_of_an_open_hand_and_can_be_put_back() -> None:
     assert not run(world, 0.3).object_lost
 
 
+def test_what_is_held_is_not_lost_however_far_away_it_is_moved() -> None:
+    world = HandWorld(HandWorldConfig(object="small_sphere", object_held=True))
+    carry_out(world, "move 0 0 -190 0 0 0 0.3")
+    far = run(world, 0.6)
+    assert not far.object_lost
+    assert far.object_position_m[2] == pytest.approx(-0.2355, abs=0.001)
+    carry_out(world, "move 0 0 190 0 0 0 0.3")
+    assert run(world, 0.6).object_position_m[2] == pytest.approx(-0.0455, abs=0.001)
+
+
+@pytest.mark.parametrize("line", ["hold", "let_go", "move 0 0 -10"])
+def test_what_is_lost_is_to_be_put_back_first(line: str) -> None:
+    world = HandWorld(HandWorldConfig(object="small_sphere", object_held=True))
+    carry_out(world, "move 0 0 -190 0 0 0 0.1")
+    run(world, 0.3)
+    world.holder.drop()
+    assert run(world, 0.01).object_lost
+    with pytest.raises(SettingsError, match="the object has fallen out of the hand; put it back first"):
+        carry_out(world, line)
+    carry_out(world, "put 0 0")
+    assert not world.is_lost
+    carry_out(world, "hold")
+    carry_out(world, line)
+
+
+def test_a_place_out_of_reach_is_refused(any_world: HandWorld) -> None:
+    before = any_world.data.qpos.copy()
+    with pytest.raises(SettingsError, match=r"height = 200 mm is 177 mm from the middle .* allowed is up to 150 mm"):
+        carry_out(any_world, "put 0 0 200")
+    assert (any_world.data.qpos == before).all()
+    with pytest.raises(SettingsError, match=r"x = -100 mm, y = -100 mm, height = 0 mm is 160 mm from the middle"):
+        HandWorldConfig(object="small_sphere", object_x_m=-0.1, object_y_m=-0.1)
+
+
+def test_nothing_is_put_into_the_palm(any_world: HandWorld) -> None:
+    with pytest.raises(SettingsError, match="'-5': allowed is a number from 0 to 200"):
+        carry_out(any_world, "put 0 0 -5")
+
+
+def test_what_is_put_back_is_not_pulled_any_more() -> None:
+    world = HandWorld(HandWorldConfig(object="small_sphere"))
+    carry_out(world, "pull 0 0 -10 0")
+    assert run(world, 0.3).object_lost
+    carry_out(world, "put 0 0")
+    back = run(world, 0.3)
+    assert not back.object_lost
+    assert back.load_n == pytest.approx((0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("name", ["sphere", "small_sphere", "box", "cylinder", "other_hand"])
+def test_a_size_that_physics_cannot_follow_is_refused(name: str) -> None:
+    with pytest.raises(SettingsError, match=r"object_size_m = 0\.0049: allowed is 0, or 0\.005 to 0\.045 m"):
+        HandWorldConfig(object=name, object_size_m=0.0049)
+    world = HandWorld(HandWorldConfig(object=name, object_size_m=0.005))
+    run(world, 0.8)
+    assert world.forces_n.sum() == pytest.approx(world.weight_n, rel=0.02)
+
+
 def test_a_load_grows_evenly_and_stays() -> None:
     world = HandWorld(HandWorldConfig(pose="thumb_up", object="cylinder", object_held=True))
     carry_out(world, "load 2 50")

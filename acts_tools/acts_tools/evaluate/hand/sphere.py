@@ -48,7 +48,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
         object=name,
         object_size_m=radius_m,
         # Away until the hand has its initial shape; the thumb would push it off.
-        object_x_m=-0.1,
+        object_x_m=-0.085,
         object_y_m=-0.1,
     )
     reflexes = ("slip", "sphere", "trap") if one.reflex else ("slip",)
