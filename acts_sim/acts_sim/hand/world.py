@@ -208,7 +208,11 @@ class HandWorld:
 
     @property
     def forces_n(self) -> NDArray[np.float64]:
-        """Force on every taxel [N]; np.ndarray [shape=(1024,)] in the order of the matrix, overwritten by `step`."""
+        """Force on every taxel [N]; np.ndarray [shape=(1024,)] in the order of the matrix, overwritten by `step`.
+
+        Where the foam bottoms out, the links' rigid core carries the rest of the load: a small sphere that is pressed
+        onto the palm with more than about 10 N, a sphere with more than about 30 N.
+        """
         return self._skin.forces_n
 
     @property

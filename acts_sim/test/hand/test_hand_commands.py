@@ -132,6 +132,17 @@ def test_a_size_that_physics_cannot_follow_is_refused(name: str) -> None:
     assert world.forces_n.sum() == pytest.approx(world.weight_n, rel=0.02)
 
 
+@pytest.mark.parametrize(("name", "carried_n", "too_many_n"), [("small_sphere", 8.0, 20.0), ("sphere", 25.0, 40.0)])
+def test_what_the_foam_cannot_carry_is_on_the_rigid_core(name: str, carried_n: float, too_many_n: float) -> None:
+    world = HandWorld(HandWorldConfig(object=name))
+    carry_out(world, f"pull 0 0 {carried_n} 50")
+    run(world, 0.8)
+    assert world.forces_n.sum() == pytest.approx(carried_n + world.weight_n, rel=0.02)
+    carry_out(world, f"pull 0 0 {too_many_n} 50")
+    run(world, 0.8)
+    assert world.forces_n.sum() < 0.9 * (too_many_n + world.weight_n)
+
+
 def test_a_load_grows_evenly_and_stays() -> None:
     world = HandWorld(HandWorldConfig(pose="thumb_up", object="cylinder", object_held=True))
     carry_out(world, "load 2 50")
