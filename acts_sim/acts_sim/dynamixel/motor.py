@@ -134,6 +134,7 @@ class Motor:
         self._values["id"] = motor_id
         self._values["return_delay_time"] = return_delay_time
         self._values["operating_mode"] = operating_mode
+        self._values["goal_current"] = self._goal_current_of(operating_mode)
 
     # --- the control table
 
@@ -234,7 +235,7 @@ class Motor:
             return StatusError.DATA_RANGE
         if name == "operating_mode" and value not in OperatingMode.__members__.values():
             return StatusError.DATA_RANGE
-        if name in _GOALS and self["bus_watchdog"] == _WATCHDOG_EXPIRED:
+        if self["bus_watchdog"] == _WATCHDOG_EXPIRED and (name in _GOALS or (name == "bus_watchdog" and value)):
             return StatusError.DATA_RANGE
         if name == "goal_current" and abs(value) > self["current_limit"]:
             return StatusError.DATA_LIMIT
@@ -254,9 +255,14 @@ class Motor:
         if name == "torque_enable" and value != self["torque_enable"]:
             self._hold_still()
         if name == "operating_mode" and value != self["operating_mode"]:
-            for gain in ("position_p_gain", "position_i_gain", "position_d_gain", "goal_current", "goal_pwm"):
+            for gain in ("position_p_gain", "position_i_gain", "position_d_gain", "goal_pwm"):
                 self._values[gain] = self.model.registers[gain].initial
+            self._values["goal_current"] = self._goal_current_of(value)
         self._values[name] = value
+
+    def _goal_current_of(self, mode: int) -> int:
+        """Goal current at the start in a mode [mA]: none where it is what flows, the largest where it is a limit."""
+        return 0 if mode == _CURRENT else self.model.registers["goal_current"].initial
 
     def _hold_still(self) -> None:
         """Set the goal to the present position, when the torque is switched on or off."""
@@ -278,6 +284,7 @@ class Motor:
         for register in self.model.registers.values():
             if register.address >= EEPROM_END:
                 self._values[register.name] = register.initial
+        self._values["goal_current"] = self._goal_current_of(self["operating_mode"])
         self._registered = None
         self._since_start_s = self._silent_s = self._stalled_s = 0.0
         self._hold_still()
@@ -309,7 +316,7 @@ class Motor:
         mode = values["operating_mode"]
         limit = float(values["current_limit"])
         if mode == _CURRENT:
-            return float(values["goal_current"])
+            return min(max(float(values["goal_current"]), -limit), limit)
         cap = min(abs(float(values["goal_current"])), limit) if mode == _CURRENT_BASED_POSITION else limit
         where = self._trajectory.advance(
             values["goal_position"], values["profile_velocity"], values["profile_acceleration"], dt_s
@@ -335,6 +342,8 @@ class Motor:
         if self._silent_s > allowed * _WATCHDOG_UNIT_S:
             self._values["bus_watchdog"] = _WATCHDOG_EXPIRED
             self._hold_still()
+            if self._values["operating_mode"] == _CURRENT:
+                self._values["goal_current"] = 0
 
     def _sense(self) -> None:
         """Write the measured values to the control table."""

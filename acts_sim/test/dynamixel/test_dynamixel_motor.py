@@ -110,6 +110,57 @@ def test_the_bus_watchdog_stops_the_motor_and_locks_its_goals() -> None:
     assert write(motor, GOAL, 2048, 4) == 0
 
 
+def in_current_mode(goal_ma: int) -> tuple[Motor, FreeJoints]:
+    """A motor that pushes with a current, on a free joint; 0: with that of the start."""
+    motor = Motor(XC330, 0)
+    joints = FreeJoints([motor], [(0.0, math.tau)])
+    assert write(motor, MODE, OperatingMode.CURRENT) == 0
+    if goal_ma:
+        assert write(motor, CURRENT, goal_ma, 2) == 0
+    assert write(motor, TORQUE, 1) == 0
+    return motor, joints
+
+
+def test_the_bus_watchdog_ends_the_current_and_only_0_clears_it() -> None:
+    motor, joints = in_current_mode(100)
+    assert write(motor, WATCHDOG, 5) == 0  # 100 ms
+    steps(joints, 0.05)
+    assert motor["present_current"] == 100
+    steps(joints, 0.1)
+    assert motor["bus_watchdog"] == 255
+    assert motor["present_current"] == 0
+    assert motor.torque_nm == 0.0
+    assert write(motor, CURRENT, 100, 2) == StatusError.DATA_RANGE
+    assert write(motor, WATCHDOG, 5) == StatusError.DATA_RANGE
+    assert motor["bus_watchdog"] == 255
+    assert write(motor, WATCHDOG, 0) == 0
+    steps(joints, 0.1)
+    assert motor["present_current"] == 0
+    assert write(motor, WATCHDOG, 5) == 0
+    assert write(motor, CURRENT, 100, 2) == 0
+
+
+def test_in_current_mode_no_current_flows_before_there_is_a_goal() -> None:
+    motor, joints = in_current_mode(0)
+    steps(joints, 0.1)
+    assert (motor["goal_current"], motor["present_current"]) == (0, 0)
+    assert write(motor, CURRENT, 100, 2) == 0
+    motor.reboot()
+    assert motor["goal_current"] == 0
+    assert Motor(XC330, 0, operating_mode=OperatingMode.CURRENT)["goal_current"] == 0
+    assert write(motor, MODE, OperatingMode.POSITION) == 0
+    assert motor["goal_current"] == 2352
+
+
+def test_a_current_limit_that_is_lowered_later_limits_the_goal_in_current_mode() -> None:
+    motor, joints = in_current_mode(-300)
+    assert write(motor, TORQUE, 0) == 0
+    assert write(motor, 38, 200, 2) == 0
+    assert write(motor, TORQUE, 1) == 0
+    steps(joints, 0.002)
+    assert motor["present_current"] == -200
+
+
 def test_an_overload_switches_off_until_a_reboot() -> None:
     motor, _ = holding()
     motor.fail(HardwareError.OVERLOAD)
