@@ -108,7 +108,7 @@ class Bus:
         delay_s = 0.0
         for motor_id, address, size in asked:
             motor = self.find(motor_id)
-            if motor is None:
+            if motor is None or motor["status_return_level"] == 0:
                 break
             error, data = motor.read(address, size)
             if fast and error:

@@ -243,6 +243,25 @@ def test_behind_a_silent_motor_nobody_answers_a_sync_read() -> None:
     assert bus.handle(ask).data == whole[: len(whole) // 2]
 
 
+@pytest.mark.parametrize(
+    ("instruction", "parameters"),
+    [
+        (Instruction.SYNC_READ, bytes([132, 0, 4, 0, 0, 1, 2])),
+        (Instruction.BULK_READ, bytes([0, 132, 0, 4, 0, 1, 132, 0, 4, 0, 2, 132, 0, 4, 0])),
+    ],
+)
+def test_a_motor_that_answers_pings_only_is_silent_in_reads_of_several(
+    instruction: Instruction, parameters: bytes
+) -> None:
+    bus = Bus(Motor(XC330, number, return_delay_time=0) for number in range(3))
+    ask = Packet(0xFE, instruction, parameters)
+    whole = bus.handle(ask).data
+    assert write(bus.motors[1], 68, 0) == 0
+    assert bus.handle(ask).data == whole[: len(whole) // 3]
+    assert write(bus.motors[1], 68, 1) == 0
+    assert bus.handle(ask).data == whole
+
+
 def test_a_position_in_pulses_is_that_of_the_shaft() -> None:
     motor = Motor(XC330, 0)
     motor.shaft.position_rad = -0.5
