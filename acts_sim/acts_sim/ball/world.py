@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import SettingsError
 from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
 from acts_core.skin import LAYOUTS, NO_PATCH, Layout, layout
@@ -140,7 +141,7 @@ class World:
     Raises
     ------
     ArrayError, SettingsError
-        When there is no such layout, or it is for another matrix.
+        When there is no such layout, or it is for another matrix, or the ball would start beside the plate.
 
     Attributes
     ----------
@@ -157,9 +158,19 @@ class World:
         self._rng = np.random.default_rng(config.seed)
         self._half_x_m = geometry.cols * geometry.pitch_m / 2
         self._half_y_m = geometry.rows * geometry.pitch_y_m / 2
+        self._require_start_on_plate()
         # Compile the kernel now; otherwise that would delay the step that puts the ball on.
         ball.step(config, BallState(), ball_plate.motion(config, self.state.joints), 0.0)
         self._contact.press(0.0, 0.0, 0.0)
+
+    def _require_start_on_plate(self) -> None:
+        config, radius_m = self.config, self.config.radius_m
+        if abs(config.start_x_m) > self._half_x_m + radius_m or abs(config.start_y_m) > self._half_y_m + radius_m:
+            raise SettingsError(
+                f"start_x_m = {config.start_x_m:g}, start_y_m = {config.start_y_m:g}: a ball of radius {radius_m:g} m "
+                f"there is beside the plate, which reaches {self._half_x_m:g} m along x and {self._half_y_m:g} m along "
+                "y to both sides of its middle; allowed is a start on it"
+            )
 
     @property
     def counts(self) -> NDArray[np.float64]:

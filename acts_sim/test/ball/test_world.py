@@ -204,6 +204,12 @@ def test_the_square_pad_is_that_of_the_paper_unless_its_pitch_is_given() -> None
     assert WorldConfig(pitch_m=0.002).geometry == ArrayGeometry(pitch_m=0.002, row_pitch_m=0.002)
 
 
+@pytest.mark.parametrize("place", [{"start_x_m": 0.2}, {"start_y_m": -0.5}])
+def test_a_start_beside_the_plate_is_refused(place: dict[str, float]) -> None:
+    with pytest.raises(SettingsError, match=r"beside the plate, which reaches 0\.07 m along x and 0\.07 m along y"):
+        World(WorldConfig(**place))
+
+
 @pytest.mark.parametrize(
     "change", [{"rows": 0}, {"cols": 65}, {"push_period_s": 0.0}, {"start_x_m": float("nan")}, {"seed": -1}]
 )
