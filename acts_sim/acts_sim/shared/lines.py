@@ -27,15 +27,22 @@ class LineSession:
         self.greeting = greeting.encode() + b"\n" if greeting else b""
         self._answer = answer
         self._buffer = b""
+        # The present line is already too long: what comes of it up to its end is dropped.
+        self._too_long = False
 
     def receive(self, data: bytes) -> bytes:
-        """Replies to the lines that `data` completes. A line that is too long is dropped."""
+        """Replies to the lines that `data` completes. A line that is too long is not carried out: an error is told."""
         *lines, rest = (self._buffer + data).split(b"\n")
-        self._buffer = rest if len(rest) <= MAX_LINE_BYTES else b""
         answers = []
         for line in lines:
-            text = line[:MAX_LINE_BYTES].decode("ascii", errors="replace").strip()
-            answers.append(self._answer(text).encode("ascii", errors="replace") + b"\n")
+            if self._too_long or len(line) > MAX_LINE_BYTES:
+                answer = f"error: the line is longer than {MAX_LINE_BYTES} bytes; nothing was done"
+            else:
+                answer = self._answer(line.decode("ascii", errors="replace").strip())
+            answers.append(answer.encode("ascii", errors="replace") + b"\n")
+            self._too_long = False
+        self._too_long = self._too_long or len(rest) > MAX_LINE_BYTES
+        self._buffer = b"" if self._too_long else rest
         return b"".join(answers)
 
     def tick(self) -> bytes:

@@ -67,6 +67,9 @@ def test_control_script_is_started_with_its_offset_and_others_are_refused() -> N
     session.receive(b"x" * 2_000_000)
     session.receive(PROGRAM.replace(b"\n24\n", b"\n7\n"))
     assert "offset 7" in log[-1]
+    session.receive(PROGRAM.replace(b"\n24\n", b"\n" + b"9" * 5000 + b"\n"))
+    assert "offset 99999999..." in log[-1]
+    assert len(log[-1]) < 200
 
 
 @settings(deadline=None)
@@ -75,6 +78,23 @@ def test_lines_are_answered_one_by_one(data: bytes) -> None:
     session = LineSession(lambda line: f"<{line}>", "hello")
     assert session.greeting == b"hello\n"
     assert session.receive(data).count(b"\n") == data.count(b"\n")
+
+
+@pytest.mark.parametrize("piece_bytes", [1, 4096, 100_000])
+def test_a_line_that_is_too_long_is_answered_with_an_error_and_not_carried_out(piece_bytes: int) -> None:
+    done = []
+
+    def answer(line: str) -> str:
+        done.append(line)
+        return "ok"
+
+    session = LineSession(answer)
+    sent = b"stop\n" + b"x" * 5000 + b" stop\n" + b"y" * 4096 + b"\nplay\n"
+    received = b"".join(session.receive(sent[k : k + piece_bytes]) for k in range(0, len(sent), piece_bytes))
+    replies = received.decode().splitlines()
+    assert done == ["stop", "y" * 4096, "play"]
+    assert replies[:1] + replies[2:] == ["ok", "ok", "ok"]
+    assert replies[1] == "error: the line is longer than 4096 bytes; nothing was done"
 
 
 def test_a_line_without_end_does_not_pile_up() -> None:

@@ -58,10 +58,12 @@ class ScriptSession:
             self._controller.note("script", f"program {name}")
             if name == CONTROL_PROGRAM:
                 found = _OFFSET.search(text)
-                offset = int(found.group(1)) if found else 0
-                if offset in (0, 24):
-                    self._controller.load_program(ControlProgram(COMMANDS, name, offset))
+                # No number yet: the text may be anything, and Python refuses to convert thousands of digits.
+                offset = found.group(1).decode() if found else "0"
+                if offset in ("0", "24"):
+                    self._controller.load_program(ControlProgram(COMMANDS, name, int(offset)))
                 else:
+                    offset = offset if len(offset) <= 8 else f"{offset[:8]}..."
                     self._controller.log(
                         f"control script with register offset {offset} not started; allowed are 0 and 24"
                     )
