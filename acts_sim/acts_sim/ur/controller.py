@@ -268,7 +268,10 @@ class Controller:
         self._publish_states()
 
     def unlock_protective_stop(self) -> bool:
-        """Release a protective stop; return whether enough time has passed since it happened (or there was none)."""
+        """Release a protective stop; return whether none is left: too little time may have passed since it happened.
+
+        An emergency stop is none, and stays.
+        """
         if self.safety == SafetyMode.PROTECTIVE_STOP:
             if self.time_s - self._stopped_at_s < self.config.unlock_after_s:
                 return False

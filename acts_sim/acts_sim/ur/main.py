@@ -32,6 +32,7 @@ from acts_sim.ur import Controller, ControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
+_LARGEST_PORT = 65535
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     # An empty one would be every address of this machine.
     if not options.host.strip():
         parser.error("--host is empty: needed is an address of this machine, such as 127.0.0.1")
+    if not 0 <= options.hook_port <= _LARGEST_PORT:
+        parser.error(f"--hook-port {options.hook_port}: allowed is 0 (none) to {_LARGEST_PORT}")
     return options
 
 

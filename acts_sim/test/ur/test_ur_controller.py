@@ -247,6 +247,10 @@ def test_emergency_stop_switches_off_and_is_cleared() -> None:
     assert controller.output.get("robot_status_bits") == (0,)
     assert controller.runtime == RuntimeState.STOPPED
     assert dashboard.answer(controller, "robotmode") == "Robotmode: POWER_OFF"
+    assert dashboard.answer(controller, "unlock protective stop") == (
+        "Cannot unlock protective stop: the robot is stopped by its emergency stop"
+    )
+    assert dashboard.answer(controller, "safetystatus") == "Safetystatus: ROBOT_EMERGENCY_STOP"
     controller.load_program(ControlProgram(COMMANDS))
     robot.cycles(100)
     assert controller.runtime == RuntimeState.STOPPED, "no program starts during an emergency stop"
@@ -269,6 +273,13 @@ def test_power_cycle_over_the_dashboard() -> None:
     assert dashboard.answer(controller, "stop") == "Stopped"
     assert dashboard.answer(controller, "get serial number").isdigit()
     assert dashboard.answer(controller, "dance") == 'could not understand: "dance"'
+
+
+def test_a_shutdown_ends_the_program_and_switches_the_arm_off() -> None:
+    robot = Robot()
+    assert dashboard.answer(robot.controller, "shutdown") == "Shutting down"
+    assert dashboard.answer(robot.controller, "robotmode") == "Robotmode: POWER_OFF"
+    assert dashboard.answer(robot.controller, "running") == "Program running: false"
 
 
 def test_what_clients_have_ordered_is_recorded() -> None:

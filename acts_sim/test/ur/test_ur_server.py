@@ -221,6 +221,8 @@ def test_busy_port_is_named(simulator: Simulator) -> None:
         ),
         (["--host", "127.0.1.21", "--joint-ring", "/proc/nowhere/ring"], "/proc/nowhere"),
         (["--host", ""], "--host is empty: needed is an address"),
+        (["--host", "127.0.1.21", "--hook-port", "65536"], "--hook-port 65536: allowed is 0 (none) to 65535"),
+        (["--host", "127.0.1.21", "--hook-port", "-1"], "--hook-port -1: allowed is 0 (none) to 65535"),
     ],
 )
 def test_bad_arguments_are_refused(arguments: list[str], named: str) -> None:

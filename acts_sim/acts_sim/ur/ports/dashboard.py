@@ -27,6 +27,8 @@ _UNLOCK_TOO_EARLY = (
     "Always inspect cause of protective stop before unlocking"
 )
 
+_UNLOCK_IN_EMERGENCY = "Cannot unlock protective stop: the robot is stopped by its emergency stop"
+
 
 def answer(controller: Controller, line: str) -> str:
     """Execute a line of the client and return the reply."""
@@ -59,6 +61,7 @@ def answer(controller: Controller, line: str) -> str:
         "power on": _power_on,
         "power off": _power_off,
         "brake release": _brake_release,
+        "shutdown": _shutdown,
     }
     if line in actions:
         if line not in _QUESTIONS:
@@ -97,6 +100,8 @@ def _stop(controller: Controller) -> str:
 
 
 def _unlock(controller: Controller) -> str:
+    if controller.safety == SafetyMode.ROBOT_EMERGENCY_STOP:
+        return _UNLOCK_IN_EMERGENCY
     if controller.unlock_protective_stop():
         return "Protective stop releasing"
     return _UNLOCK_TOO_EARLY.format(seconds=controller.config.unlock_after_s)
@@ -117,3 +122,9 @@ def _brake_release(controller: Controller) -> str:
     if controller.robot_mode == RobotMode.IDLE:
         controller.set_power(RobotMode.RUNNING)
     return "Brake releasing"
+
+
+def _shutdown(controller: Controller) -> str:
+    # Only the arm: the process goes on, as whoever has started it expects.
+    controller.set_power(RobotMode.POWER_OFF)
+    return "Shutting down"
