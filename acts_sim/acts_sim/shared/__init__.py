@@ -3,7 +3,8 @@
 
 """What simulated processes share: options, a private folder, rings in shared memory, lines of text over sockets.
 
-Into a ring come arrays with their times; out come those of any time in the last 128 ms.
+Into a ring come arrays with their times; out come those of any time that its slots reach back: 256 slots, the default,
+are 512 ms at the 500 Hz of the simulated worlds.
 """
 
 from acts_sim.shared.lines import LineSession

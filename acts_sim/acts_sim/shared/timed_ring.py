@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A ring of timestamped arrays in a memory-mapped file, which simulated processes share at 1 kHz.
+"""A ring of timestamped arrays in a memory-mapped file, which simulated processes share, 500 times a second.
 
 One process writes, any number read, and none ever waits (a seqlock per slot). The world writes fields of counts that
 the virtual board (C++) reads; the simulated robot writes joint angles that the world reads.
