@@ -88,7 +88,7 @@ def vibration(skin: ContactModel, motor: Motor, duration_s: float, rng: np.rando
     Raises
     ------
     SettingsError
-        When the motor stands beside the skin.
+        When the motor's foot reaches beyond the skin: an edge cannot carry what is beside it.
     """
     time_s = np.arange(int(duration_s * VIBRATION_RATE_HZ) + 1) / VIBRATION_RATE_HZ
     angle = 2 * np.pi * motor.frequency_hz * time_s + rng.uniform(0, 2 * np.pi)
@@ -125,8 +125,13 @@ def _foot(skin: ContactModel, motor: Motor) -> tuple[Array, Array, Array]:
     flat = part(0)
     # The foam's points are coarse: the foot carries all of the force.
     whole = flat.sum()
-    if not whole > 0.0:
+    half_x_m = skin.geometry.cols * skin.geometry.pitch_m / 2
+    half_y_m = skin.geometry.rows * skin.geometry.pitch_y_m / 2
+    overhangs = abs(motor.x_m) + motor.radius_m > half_x_m or abs(motor.y_m) + motor.radius_m > half_y_m
+    if overhangs or not whole > 0.0:
         raise SettingsError(
-            f"a motor at x_m = {motor.x_m:g}, y_m = {motor.y_m:g} does not stand on the skin, whose middle is at 0"
+            f"a motor at x_m = {motor.x_m:g}, y_m = {motor.y_m:g} with radius_m = {motor.radius_m:g} does not stand on "
+            f"the skin with all of its foot: the skin reaches {half_x_m:g} m along x and {half_y_m:g} m along y to both "
+            "sides of its middle, which is at 0"
         )
     return flat / whole, part(1) / whole, part(2) / whole

@@ -57,6 +57,13 @@ def test_what_no_motor_is_is_refused() -> None:
         Motor(frequency_hz=0.0)
 
 
+def test_a_motor_whose_foot_reaches_over_the_edge_is_refused() -> None:
+    assert shown(Motor(x_m=0.0599, y_m=-0.0599), duration_s=0.001).frames.any()
+    for place in ({"x_m": 0.0601}, {"y_m": -0.0601}, {"radius_m": 0.08}):
+        with pytest.raises(SettingsError, match=r"does not stand on the skin .* reaches 0\.07 m along x and 0\.07 m"):
+            shown(Motor(**place), duration_s=0.001)
+
+
 @pytest.mark.parametrize("place", [{"x_m": 0.5}, {"y_m": -0.2}])
 def test_a_motor_beside_the_skin_is_refused(place: dict[str, float]) -> None:
     with pytest.raises(SettingsError, match=r"does not stand on the skin"):
