@@ -36,7 +36,7 @@ class ExportedRecording:
     rate_hz : float
         Frames per second at which it was recorded; `DEFAULT_RATE_HZ` for single frames.
     labels : tuple of str
-        Name of every exported frame (single frames) or recording; empty where the file names none.
+        Name of every exported frame (single frames, before repetition) or recording; empty where the file names none.
     """
 
     path: Path
@@ -98,12 +98,12 @@ def export_recording(
         raise RecordingError(f"{npz_path}: frames of shape {frames.shape}; needed is (n, rows, cols), up to {MAX_SIDE}")
     if "kind" in content:
         chosen, labels = _choose_frames(content, len(frames), recordings, label, kind, npz_path)
-        rate_hz = DEFAULT_RATE_HZ
+        rate_hz, labels = DEFAULT_RATE_HZ, labels[:max_frames]
         _require_measured(content, frames, chosen[:max_frames], npz_path)
     else:
         if kind is not None:
             raise RecordingError(f"{npz_path}: has no kind of frames to choose {kind!r} from")
-        chosen, labels = _choose_recordings(content, len(frames), recordings, label, npz_path)
+        chosen, labels = _choose_recordings(content, len(frames), recordings, label, max_frames, npz_path)
         rate_hz = _rate_hz(content, npz_path)
     chosen = chosen[:max_frames]
     if not len(chosen):
@@ -142,7 +142,12 @@ def _rate_hz(content: dict[str, NDArray], path: Path) -> float:
 
 
 def _choose_recordings(
-    content: dict[str, NDArray], count: int, recordings: Sequence[int] | None, label: str | None, path: Path
+    content: dict[str, NDArray],
+    count: int,
+    recordings: Sequence[int] | None,
+    label: str | None,
+    max_frames: int | None,
+    path: Path,
 ) -> tuple[NDArray[np.intp], tuple[str, ...]]:
     start = content.get("start", np.array([0]))
     length = content.get("length", np.array([count]))
@@ -154,7 +159,10 @@ def _choose_recordings(
     which = _which(len(start), names, recordings, label, "recordings", path)
     parts = [np.arange(start[i], start[i] + length[i]) for i in which]
     chosen = np.concatenate(parts) if parts else np.empty(0, dtype=np.intp)
-    return chosen, tuple(names[i] for i in which) if names else ()
+    # Of recordings that `max_frames` leaves out there is no label either.
+    begins = np.cumsum([0, *(part.size for part in parts)])
+    kept = [i for i, begin in zip(which, begins, strict=False) if max_frames is None or begin < max_frames]
+    return chosen, tuple(names[i] for i in kept) if names else ()
 
 
 def _choose_frames(

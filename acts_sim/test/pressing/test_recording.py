@@ -84,6 +84,15 @@ def test_recordings_are_selected(tmp_path: Path, out: Path, choice: dict, wanted
     np.testing.assert_array_equal(np.load(out), np.arange(120).reshape(6, 4, 5)[wanted])
 
 
+@pytest.mark.parametrize(
+    ("max_frames", "labels"), [(1, ("mug",)), (2, ("mug",)), (3, ("mug", "can")), (9, ("mug", "can", "mug"))]
+)
+def test_labels_are_those_of_the_frames_that_are_written(
+    tmp_path: Path, out: Path, max_frames: int, labels: tuple[str, ...]
+) -> None:
+    assert export_recording(evaluation(tmp_path / "in.npz"), out, max_frames=max_frames).labels == labels
+
+
 def test_a_file_without_recordings_is_one(tmp_path: Path, out: Path) -> None:
     path = evaluation(tmp_path / "in.npz", start=None, length=None, label=None, live=None)
     assert export_recording(path, out).labels == ()
@@ -94,6 +103,7 @@ def test_single_frames_are_rounded(tmp_path: Path, out: Path) -> None:
     exported = export_recording(figures(tmp_path / "in.npz"), out, kind="full_raster", repeat=3)
     np.testing.assert_array_equal(np.load(out), np.full((3, 4, 4), 8))
     assert exported.labels == ("c",)
+    assert len(export_recording(figures(tmp_path / "in.npz"), out, recordings=[2, 1], max_frames=1).labels) == 1
     export_recording(figures(tmp_path / "in.npz"), out, recordings=[2, 1])
     assert len(np.load(out)) == 2
 
