@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -29,6 +30,8 @@ _ALONG = np.array([0.12, 0.18, 0.30, 0.55, 0.75, 0.84, 0.90])
 # Standard deviations of the pressure along and across, as shares of length and width.
 _SPREAD_ALONG, _SPREAD_ACROSS = 0.10, 0.22
 _SWAY, _SWAY_HZ = 0.04, 0.4
+# How much the right foot's strikes vary about half a stride, as a share of how much strides do.
+_JITTER = 0.125
 
 
 @dataclass(frozen=True)
@@ -191,24 +194,46 @@ def walk(config: Walk, duration_s: float, rng: np.random.Generator) -> Walking:
     rng : np.random.Generator
         Of the strides' times.
     """
+    if not config.cadence_per_min:
+        standing = Footfall(-math.inf, duration_s + 1000.0, 1.0)
+        return Walking(config, duration_s, ((standing,), (standing,)))
+    stride_s = 120.0 / config.cadence_per_min
+    shares = (config.stance_share * (1.0 + config.limp), config.stance_share * (1.0 - config.limp))
+    lifted_s = (config.standing_s, config.standing_s + stride_s / 2)
+    strikes = _strikes_s(config, duration_s, lifted_s, shares[0], rng)
     footfalls = []
-    for foot, sign in enumerate((1.0, -1.0)):
-        found: list[Footfall] = []
-        if config.cadence_per_min:
-            stride_s = 120.0 / config.cadence_per_min
-            stance_s = config.stance_share * stride_s * (1.0 + sign * config.limp)
-            lifted_s = config.standing_s + foot * stride_s / 2
-            found.append(Footfall(-math.inf, lifted_s, stance_s))
-            strike_s = lifted_s + stride_s - stance_s
-            while strike_s + 2 * stride_s < duration_s - config.standing_s:
-                factor = 1.0 + config.variation * float(np.clip(rng.standard_normal(), -2.0, 2.0))
-                found.append(Footfall(strike_s, strike_s + factor * stance_s, factor * stance_s))
-                strike_s += factor * stride_s
-            found.append(Footfall(strike_s, math.inf, stance_s))
-        else:
-            found.append(Footfall(-math.inf, duration_s + 1000.0, 1.0))
+    for strikes_s, share, first_s in zip(strikes, shares, lifted_s, strict=True):
+        found = [Footfall(-math.inf, first_s, share * stride_s)]
+        for strike_s, next_s in itertools.pairwise(strikes_s):
+            stance_s = share * (next_s - strike_s)
+            found.append(Footfall(strike_s, strike_s + stance_s, stance_s))
+        found.append(Footfall(strikes_s[-1], math.inf, share * stride_s))
         footfalls.append(tuple(found))
     return Walking(config, duration_s, (footfalls[0], footfalls[1]))
+
+
+def _strikes_s(
+    config: Walk, duration_s: float, lifted_s: tuple[float, float], left_share: float, rng: np.random.Generator
+) -> tuple[list[float], list[float]]:
+    """When the left foot is set down, and the right one, of which each is half a stride later than the left [s].
+
+    Both share the strides' times: with times of its own each foot would drift to any phase of the other.
+    """
+    stride_s = 120.0 / config.cadence_per_min
+    left_s, right_s = [lifted_s[0] + stride_s * (1.0 - left_share)], []
+    while True:
+        is_last = left_s[-1] + 2 * stride_s >= duration_s - config.standing_s
+        factor = 1.0 if is_last else 1.0 + config.variation * _normal(rng)
+        half_s = stride_s * (factor / 2 + _JITTER * config.variation * _normal(rng))
+        # Not before it is lifted for the first time, after a short first stride.
+        right_s.append(max(left_s[-1] + half_s, lifted_s[1]))
+        if is_last:
+            return left_s, right_s
+        left_s.append(left_s[-1] + factor * stride_s)
+
+
+def _normal(rng: np.random.Generator) -> float:
+    return float(np.clip(rng.standard_normal(), -2.0, 2.0))
 
 
 def _during(footfall: Footfall, time_s: Array) -> NDArray[np.bool_]:

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -26,6 +28,28 @@ def test_feet_carry_the_weight_in_turn() -> None:
     for foot in range(2):
         begin_s = [footfall.strike_s for footfall in walking.footfalls[foot] if footfall.is_whole]
         assert np.diff(begin_s) == pytest.approx(120.0 / 110.0)
+
+
+@pytest.mark.parametrize("stance_share", [0.55, 0.62])
+@pytest.mark.parametrize("seed", range(5))
+def test_feet_stay_half_a_stride_apart_and_one_always_carries(stance_share: float, seed: int) -> None:
+    walking = walk(Walk(stance_share=stance_share), 60.0, np.random.default_rng(seed))
+    time_s = np.arange(0.0, 60.0, 0.001)
+    assert (walking.force_n(0, time_s) + walking.force_n(1, time_s)).min() > 0.0
+    left_s, right_s = (np.array([one.strike_s for one in foot if one.is_whole]) for foot in walking.footfalls)
+    assert left_s.size == right_s.size > 40
+    phase = (right_s[:-1] - left_s[:-1]) / np.diff(left_s)
+    assert phase == pytest.approx(0.5, abs=3 * walking.walk.variation)
+    assert phase.std() > 0.001
+    assert np.diff(left_s).std() == pytest.approx(walking.walk.variation * 120.0 / 110.0, rel=0.4)
+
+
+def test_no_foot_is_set_down_before_it_is_lifted() -> None:
+    for seed in range(20):
+        walking = walk(Walk(stance_share=0.9, limp=0.1, variation=0.2), 60.0, np.random.default_rng(seed))
+        for foot in walking.footfalls:
+            for before, after in itertools.pairwise(foot):
+                assert before.toe_off_s <= after.strike_s
 
 
 def test_the_truth_is_that_of_the_force() -> None:
