@@ -34,7 +34,7 @@ STEP_S = 0.002
 # Of the physics in a step: foam that is pressed hard, or by a light object, is a stiff spring with much damping.
 _SUBSTEPS = 4
 _SMALLEST_KG = 0.01
-# The cover rounds off 1 mm and the foam is 3 mm thick: smaller objects press with more than they weigh, or fall through.
+# The cover rounds off 1 mm and the foam is 3 mm thick: what is smaller shows more than its weight, or falls through.
 _SMALLEST_M, _LARGEST_M = 0.005, 0.045
 
 _GRAVITY_M_S2 = 9.81

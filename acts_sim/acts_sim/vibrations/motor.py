@@ -131,7 +131,7 @@ def _foot(skin: ContactModel, motor: Motor) -> tuple[Array, Array, Array]:
     if overhangs or not whole > 0.0:
         raise SettingsError(
             f"a motor at x_m = {motor.x_m:g}, y_m = {motor.y_m:g} with radius_m = {motor.radius_m:g} does not stand on "
-            f"the skin with all of its foot: the skin reaches {half_x_m:g} m along x and {half_y_m:g} m along y to both "
+            f"the skin with all of its foot: that reaches {half_x_m:g} m along x and {half_y_m:g} m along y to both "
             "sides of its middle, which is at 0"
         )
     return flat / whole, part(1) / whole, part(2) / whole

@@ -205,7 +205,7 @@ def test_the_square_pad_is_that_of_the_paper_unless_its_pitch_is_given() -> None
 
 
 @pytest.mark.parametrize("place", [{"start_x_m": 0.2}, {"start_y_m": -0.5}])
-def test_a_start_beside_the_plate_is_refused(place: dict[str, float]) -> None:
+def test_a_start_beside_the_plate_is_refused(place: dict[str, Any]) -> None:
     with pytest.raises(SettingsError, match=r"beside the plate, which reaches 0\.07 m along x and 0\.07 m along y"):
         World(WorldConfig(**place))
 
