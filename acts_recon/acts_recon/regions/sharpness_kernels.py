@@ -57,7 +57,7 @@ def footprints(
     Parameters
     ----------
     pitch_m, bend_per_m : np.ndarray [shape=(2,), dtype=float64]
-        Of the taxels along a column and along a row [m], and how the skin is bent there [1/m].
+        Of the taxels along a column and along a row [m], and how the skin is bent there [1/m]; below 0: hollow.
     radius_m : float
         Of the rod and its end.
     stiffness_n_per_m3, spread_m : float
@@ -78,7 +78,9 @@ def footprints(
         # Half axes of an ellipse about what is touched.
         touched = np.empty(2)
         for axis in range(2):
-            touched[axis] = min(math.sqrt(2.0 * depth / (1.0 / radius_m + bend_per_m[axis])), radius_m)
+            # In a hollow that is bent no less than the end, all of the end is touched.
+            curve_per_m = 1.0 / radius_m + bend_per_m[axis]
+            touched[axis] = min(math.sqrt(2.0 * depth / curve_per_m), radius_m) if curve_per_m > 0.0 else radius_m
             for place in range(PLACES):
                 at = _FARTHEST * (2.0 * place / (PLACES - 1) - 1.0) * pitch_m[axis]
                 for point in range(_POINTS):
@@ -105,6 +107,7 @@ def footprints(
                     part = 0.0
                     for j in range(_POINTS):
                         part += pressure[i, j] * felt[1, b, j, k]
+                    # Above 0: the middle is as deep as the level says.
                     half[i, k] = part / total
             for a in range(PLACES):
                 for row in range(WINDOW):

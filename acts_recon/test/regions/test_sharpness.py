@@ -130,6 +130,17 @@ def test_a_tip_far_finer_than_the_taxels_is_told() -> None:
         assert np.isfinite(Sharpness((wide,), force_table(RESPONSE), 8.0, NOISE_COUNTS, config).of(image)).all()
 
 
+@pytest.mark.parametrize("radius_m", [-0.005, -0.008, -0.03])
+@pytest.mark.parametrize("row_radius_m", [0.0, -0.005, 0.01])
+def test_a_hollow_patch_may_be_bent_more_than_what_is_blunt(radius_m: float, row_radius_m: float) -> None:
+    small = replace(FINGER, pitch_m=0.0015, row_pitch_m=0.0015, radius_m=radius_m, row_radius_m=row_radius_m)
+    found = Sharpness((small,), force_table(RESPONSE), 8.0, NOISE_COUNTS, SharpnessConfig())
+    assert (np.diff(found._level_force_n, axis=2) > 0.0).all()
+    assert np.isfinite(found._share).all()
+    assert (found._share >= 0.0).all()
+    assert np.isfinite(found.of(felt(0.0015, 0.0015, (0.0, 0.0)))).all()
+
+
 @pytest.mark.parametrize("kind", [SharpnessConfig, ReconstructionSettings])
 def test_a_tip_is_finer_than_what_is_blunt(kind: type) -> None:
     with pytest.raises(SettingsError, match=r"sharpness_tip_radius_m = 0.004: allowed is below .* \(0.004\)"):
