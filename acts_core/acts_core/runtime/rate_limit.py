@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+
 
 class RateLimit:
     """Says which of the frames that come are due so that no more than `rate_hz` a second are.
@@ -19,12 +21,14 @@ class RateLimit:
     """
 
     def __init__(self, rate_hz: float) -> None:
+        self._period_s = 0.0
+        self._next_s = -math.inf
         self.set_rate(rate_hz)
-        self._next_s = 0.0
 
     def set_rate(self, rate_hz: float) -> None:
-        """Change the rate, from the next due frame on."""
-        self._period_s = 1.0 / rate_hz if rate_hz > 0 else 0.0
+        """Change the rate: the next frame is due a period of it after the last one."""
+        before_s, self._period_s = self._period_s, 1.0 / rate_hz if rate_hz > 0 else 0.0
+        self._next_s += self._period_s - before_s
 
     def due(self, now_s: float) -> bool:
         """Whether the frame that came at `now_s` (monotonic) is due; if so, the next one is due a period later."""

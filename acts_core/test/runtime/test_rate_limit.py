@@ -13,6 +13,23 @@ def test_of_a_thousand_frames_in_a_second_so_many_are_due(rate_hz: float, expect
     assert abs(sum(limit.due(time_s) for time_s in times_s) - expected) <= 1
 
 
+@pytest.mark.parametrize(("rate_hz", "period_s"), [(10.0, 0.1), (0.0, 0.0)])
+def test_a_rate_that_is_raised_is_in_force_at_once(rate_hz: float, period_s: float) -> None:
+    limit = RateLimit(0.1)
+    assert limit.due(100.0)
+    limit.set_rate(rate_hz)
+    assert not limit.due(100.0 + period_s - 0.001)
+    assert limit.due(100.0 + period_s + 0.001)
+
+
+def test_a_rate_that_is_lowered_is_in_force_at_once() -> None:
+    limit = RateLimit(10.0)
+    assert limit.due(100.0)
+    limit.set_rate(0.1)
+    assert not limit.due(109.9)
+    assert limit.due(110.01)
+
+
 def test_after_a_pause_nothing_is_made_up_for() -> None:
     limit = RateLimit(10.0)
     assert limit.due(1.0)
