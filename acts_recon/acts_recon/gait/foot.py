@@ -181,15 +181,16 @@ class FootTracker:
         return told
 
     def _look_lifted(self, last: _Bin, now: _Bin, share: float, loads: Loads) -> tuple[Step, ...]:
-        told = self._confirmed(now.time_s)
         if share < self.config.lifted_share:
             self._phase, self._rise = _Phase.LIFTED, None
             self._bins.clear()
             if self._lightest is None or now.force < self._lightest.force:
                 self._lightest = now
-            return told
+            return self._confirmed(now.time_s)
         if self._phase is _Phase.LIFTED and self._rise is None:
             self._rise = _crossing(last, now, self.config.lifted_share, loads)
+        # A swing ends where the force begins to rise, however slowly it does.
+        told = self._confirmed(now.time_s if self._rise is None else self._rise.time_s)
         self._bins.append(now)
         return told + self._load() if share > self.config.loaded_share else told
 

@@ -108,6 +108,16 @@ def test_a_short_dip_does_not_end_a_step() -> None:
     assert steps[3].time_s[0] < steps[3].strike_s + 0.02
 
 
+def test_a_short_dip_after_which_the_force_rises_slowly_does_not_end_a_step() -> None:
+    time_s = times_s(1000.0, 20.9)
+    force = walked(time_s)
+    after_s = (time_s - FIRST_S) % STRIDE_S - STANCE_S / 2
+    for begin_s, end_s, share in ((0.0, 0.06, 0.10), (0.06, 0.09, 0.32)):
+        force[(begin_s <= after_s) & (after_s < end_s) & (time_s > FIRST_S)] = share
+    steps = steps_of(time_s, force)
+    assert [step.stance_s for step in steps] == pytest.approx([STANCE_S - 0.5 * RAMP_S] * 17, abs=0.01)
+
+
 def test_steps_around_a_gap_are_left_out() -> None:
     time_s = times_s(50.0)
     begin_s = FIRST_S + 4 * STRIDE_S + 0.3
