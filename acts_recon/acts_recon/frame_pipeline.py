@@ -21,6 +21,10 @@ from acts_recon.images import BaselineSubtraction
 from acts_recon.settings import ReconstructionConfig
 
 
+# A change of the baseline by no more is drift: it is published from half a count on, once a second at most.
+_DRIFT_COUNTS = 2.0
+
+
 class ArraySizeError(ArrayError):
     """A frame is of another array than the one it was given for."""
 
@@ -71,6 +75,8 @@ class FramePipeline:
         # Baselines come on another thread than frames.
         self._lock = threading.Lock()
         self._is_other_zero = False
+        # Last measurement of each taxel, with the baseline; 0: none since frames were forgotten.
+        self._raw = np.zeros(settings.rows * settings.cols, dtype=np.uint16)
         self._noise: tuple[NDArray[np.float32], NDArray[np.bool_]] | None = None
         self.every: SampleFrame | None = None
         self.frame: SampleFrame | None = None
@@ -98,8 +104,9 @@ class FramePipeline:
 
         See `BaselineSubtraction.set` and `Method.set_noise`. It may be called on another thread than `step`.
 
-        Where a taxel may be touched by the one and untouched by the other, as by a tare, all frames are forgotten with
-        the next one: what differs then has not happened on the skin.
+        Where a taxel's last measurement is a touch by the one baseline and none by the other, as after a tare, all
+        frames are forgotten with the next one: what differs then has not happened on the skin. So they are where the
+        baseline of a taxel changes by more than `touch_counts`, and they are not where it drifts, by 2 counts at most.
 
         Raises
         ------
@@ -108,7 +115,11 @@ class FramePipeline:
         """
         check_untouched("noise", noise_counts, valid, self.size[0] * self.size[1])
         with self._lock:
-            if self._baseline.set(counts, valid) > self._touch_counts:
+            raw = self._raw.copy()  # a frame may come meanwhile
+            was_touched = self._baseline.are_above(raw, self._touch_counts)
+            change = np.abs(self._baseline.set(counts, valid))
+            has_turned = was_touched != self._baseline.are_above(raw, self._touch_counts)
+            if (change > self._touch_counts).any() or (has_turned & (change > _DRIFT_COUNTS)).any():
                 self._is_other_zero = True
             self._noise = noise_counts.copy(), valid.copy()
 
@@ -159,6 +170,8 @@ class FramePipeline:
             self._samples.of(every.indices, every.counts, may_repeat=True)
         once = every.once()
         self.contact = self.recovery.step(once.indices, once.counts, stamp_ns * 1e-9, once.duration_us * 1e-6)
+        # Not before: only now it is known that they are of this matrix.
+        self._raw[frame.indices] = frame.counts
         self.every, self.frame = every, once
         return lost
 
@@ -181,5 +194,6 @@ class FramePipeline:
         return self._numbers.step(frame.sequence)
 
     def _forget(self) -> None:
+        self._raw.fill(0)
         self.recovery.reset()
         self._forget_more()

@@ -42,7 +42,7 @@ class BaselineSubtraction:
         one = np.zeros(1, dtype=np.uint16)
         _subtract(one, one, self._baseline, self._result)
 
-    def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> float:
+    def set(self, baseline: NDArray[np.float32], valid: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Take over a baseline; nothing is subtracted where it is not valid, and where it is nowhere there is none.
 
         Parameters
@@ -53,8 +53,8 @@ class BaselineSubtraction:
 
         Returns
         -------
-        float
-            By how much the baseline of a taxel has changed at most [counts].
+        np.ndarray [shape=(size,), dtype=float32]
+            By how much the baseline of each taxel has changed [counts].
 
         Raises
         ------
@@ -65,7 +65,11 @@ class BaselineSubtraction:
         # Put in place as a whole: a frame may be worked on by another thread.
         before, self._baseline = self._baseline, np.where(valid, baseline, np.float32(0.0)).astype(np.float32)
         self.is_set = bool(valid.any())
-        return float(np.abs(self._baseline - before).max())
+        return self._baseline - before
+
+    def are_above(self, counts: NDArray[np.uint16], threshold: int) -> NDArray[np.bool_]:
+        """Which taxels are above a threshold where these are the raw counts of all, in the order of their indices."""
+        return np.floor(counts - self._baseline + np.float32(0.5)) > threshold
 
     def apply(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> NDArray[np.uint16]:
         """Counts less the baseline, rounded, at least 0; overwritten by the next call.

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame, Scheme
-from acts_recon.frame_pipeline import RepeatedFrameError
+from acts_recon.frame_pipeline import FramePipeline, RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionSettings
 
@@ -158,3 +158,24 @@ def test_a_baseline_is_subtracted(recovery: FrameRecovery) -> None:
     recovery.step(frame(0, 500), 0)
     assert not recovery.recovery.image.any()
     recovery.set_baseline(still, still, still == 0)
+
+
+@pytest.mark.parametrize(
+    ("counts", "baseline_counts", "are_forgotten"),
+    [(100, 50.0, True), (500, 50.0, False), (500, 61.0, True), (61, 1.0, False), (63, 3.0, True), (40, 3.0, False)],
+)
+def test_a_baseline_by_which_a_touch_is_none_forgets_all_frames(
+    counts: int, baseline_counts: float, are_forgotten: bool
+) -> None:
+    forgotten: list[int] = []
+    pipeline = FramePipeline(ReconstructionSettings(rows=SIDE, cols=SIDE), lambda: forgotten.append(1))
+    still, valid = np.zeros(SIDE * SIDE, np.float32), np.ones(SIDE * SIDE, dtype=np.bool_)
+    pipeline.step(frame(0, counts), 0)
+    pipeline.set_baseline(still + np.float32(baseline_counts), still, valid)
+    for sequence in (1, 2):
+        pipeline.step(frame(sequence, counts), 1_000_000 * sequence)
+    assert bool(forgotten) == are_forgotten
+    # And back again, by a touch of the same counts.
+    pipeline.set_baseline(still, still, valid)
+    pipeline.step(frame(3, counts), 3_000_000)
+    assert len(forgotten) == 2 * are_forgotten
