@@ -28,6 +28,9 @@ from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
 # Images kept of each patch, at least a window's worth at any rate.
 _KEPT = 64
 
+# Frames come unevenly, and some are lost: up to so many windows are taken as one.
+_LONGEST_WINDOWS = 2.0
+
 NOISE_COUNTS = 1.5
 """Of the images that docs/slip.md has figures of; of a board whose noise nobody has told, the regions assume more."""
 
@@ -187,7 +190,7 @@ class SlipWatch:
 
     def _share_of_limits(self, patch: int, numbers: list[float]) -> float:
         """Motion relative to the limit that it is farthest below; 0 where it cannot be told."""
-        has_motion, cols, rows, sd_taxels, gain, _, _, cut = numbers
+        has_motion, cols, rows, sd_taxels, gain, _, elapsed_s, cut, pace_s = numbers
         config = self.config
         if not has_motion or not 1.0 / config.slip_max_gain <= gain <= config.slip_max_gain:
             return 0.0
@@ -197,10 +200,17 @@ class SlipWatch:
         if not (taxels >= config.slip_cut_taxels * cut * abs(math.log(gain)) and sd_taxels >= 0.0):
             return 0.0
         sigmas = taxels / sd_taxels if sd_taxels > 0.0 else math.inf
-        return min(taxels / config.slip_distance_taxels, metres / config.slip_distance_m, sigmas / config.slip_sigmas)
+        # After a gap the earlier image may be many windows old. In that time skin creeps farther than in one, but no
+        # faster. Where frames come slowly all the time, a window is what lies between two of them.
+        windows = max(elapsed_s / (_LONGEST_WINDOWS * max(config.slip_window_s, pace_s)), 1.0)
+        return min(
+            taxels / (windows * config.slip_distance_taxels),
+            metres / (windows * config.slip_distance_m),
+            sigmas / config.slip_sigmas,
+        )
 
     def _slip(self, patch: int, numbers: list[float], slips: bool) -> Slip:
-        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s, _ = numbers
+        has_motion, cols, rows, sd_taxels, gain, growth, elapsed_s = numbers[: kernels.CUT]
         if not has_motion:
             return NO_SLIP if self._time_s - self._told_s[patch] > self.config.slip_hold_s else Slip(True)
         motion = Motion(cols, rows, sd_taxels, gain, growth)

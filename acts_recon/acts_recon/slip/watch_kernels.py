@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 from acts_core.kernels import kernel
 from acts_recon.slip.motion_kernels import cut, normal_equations, solve
 
-RESULTS = 8
+RESULTS = 9
 """Numbers that `watch` writes of a patch."""
 
-HAS_MOTION, COLS, ROWS, SD_TAXELS, GAIN, GROWTH, ELAPSED_S, CUT = range(RESULTS)
-"""Where each of them is: the motion, see `acts_recon.slip.motion.Motion`, in what time, and what `cut` says."""
+HAS_MOTION, COLS, ROWS, SD_TAXELS, GAIN, GROWTH, ELAPSED_S, CUT, PACE_S = range(RESULTS)
+"""Where each of them is: the motion, see `acts_recon.slip.motion.Motion`, in what time, and what `cut` says.
+
+`PACE_S`: how long before the earlier of both images the one before it was kept; inf where there was none.
+"""
 
 # Times differ by more where a taxel was measured anew [s].
 _SAME_TIME_S = 1e-5
@@ -178,6 +181,8 @@ def watch(
                 results[p, GROWTH] = growth
                 results[p, ELAPSED_S] = moment_s - past_s[p, reference]
                 results[p, CUT] = cut(then, now)
+                # Of the ring no more is used than a window's worth, so this is not one that came later.
+                results[p, PACE_S] = past_s[p, reference] - past_s[p, (reference - 1) % kept]
         if moment_s - youngest_s >= tuning.keep_s:
             newest[p] = (newest[p] + 1) % kept
             past[newest[p], top:end, left:right] = now

@@ -181,3 +181,25 @@ def test_after_a_pause_it_begins_anew() -> None:
         detector.step(k * 1e-3, press(3.4, 3.7))
     assert detector.step(0.7, press(3.4, 5.7)).motion is None
     assert not detector.step(0.701, press(3.4, 5.7)).slipping
+
+
+@pytest.mark.parametrize("gap_s", [0.1, 0.2, 0.3, 0.45])
+@pytest.mark.parametrize("rate_hz", [1000.0, 250.0])
+def test_creep_is_no_slip_after_a_gap_but_slip_is(gap_s: float, rate_hz: float) -> None:
+    def is_told(speed_m_s: float) -> bool:
+        detector, rng, told = SlipDetector(SIDE, SIDE, PITCH_M), np.random.default_rng(5), False
+        for time_s in np.arange(0.0, 1.0, 1.0 / rate_hz):
+            if not 0.3 < time_s < 0.3 + gap_s:
+                image = noisy(press(3.4, 2.5 + time_s * speed_m_s / PITCH_M), rng)
+                told |= detector.step(float(time_s), image).slipping and time_s > 0.3
+        return told
+
+    assert not is_told(0.001)
+    assert is_told(0.006)
+
+
+def test_a_lost_frame_of_a_slow_recording_hides_no_slip() -> None:
+    detector, told = SlipDetector(SIDE, SIDE, PITCH_M), []
+    for k in (0, 1, 2, 3, 4, 5, 7):
+        told.append(detector.step(k / 9.0, press(3.4, 3.0 + 0.08 * max(k - 5, 0))).slipping)
+    assert told == [False] * 6 + [True]
