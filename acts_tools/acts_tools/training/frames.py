@@ -46,7 +46,8 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
     Parameters
     ----------
     paths : sequence of Path
-        npz files with `frames`, or bags (see `acts_tools.training.bag_frames`).
+        npz files with `frames`, which are 0 where the file's `live` is false, or bags (see
+        `acts_tools.training.bag_frames`).
     topic : str
         Topic of the bags; empty for the only one with full frames.
 
@@ -67,7 +68,9 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
             description = f"{len(frames)} frames of {used} in {path.resolve().name}"
         else:
             tell_if_large(path)
-            frames = load_frames(path).frames
+            file = load_frames(path)
+            # What is no taxel, or a broken one, reads something all the same.
+            frames = file.frames if file.live.all() else file.frames * file.live
             description = f"{len(frames)} frames of {path.name}"
         if parts and frames.shape[1:] != parts[0].shape[1:]:
             raise RecordingError(

@@ -154,6 +154,16 @@ def test_impossible_messages_are_refused(frames: Frames, tmp_path: Path) -> None
             bag_frames(write_bag(tmp_path / f"bag{number}", *messages))
 
 
+def test_taxels_that_are_not_live_are_0(frames: Frames, tmp_path: Path) -> None:
+    live = np.arange(120).reshape(12, 10) % 7 > 0
+    np.savez(tmp_path / "some.npz", frames=frames, live=live)
+    np.savez(tmp_path / "all.npz", frames=frames)
+    assert frames[:, ~live].any()
+    found = recorded_frames([tmp_path / "some.npz", tmp_path / "all.npz"]).frames
+    assert found.dtype == np.uint16
+    np.testing.assert_array_equal(found, np.concatenate([np.where(live, frames, 0), frames]))
+
+
 def test_recordings_must_be_of_one_size(frames: Frames, tmp_path: Path) -> None:
     for name, part in (("a", frames), ("b", frames[:, :8])):
         np.savez(tmp_path / f"{name}.npz", frames=part)
