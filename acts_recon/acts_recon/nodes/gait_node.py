@@ -46,7 +46,8 @@ class GaitSettings(GaitConfig):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if (not self.left and not self.right) or self.left == self.right:
+        # In the root namespace `sole` is `/sole`.
+        if self.left.removeprefix("/") == self.right.removeprefix("/"):
             raise SettingsError(
                 f"left = {self.left!r}, right = {self.right!r}: needed are the namespaces of two insoles, or of one"
             )

@@ -76,7 +76,7 @@ def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Peers]) -> None
     assert "no contacts on /left_sole/contact, /right_sole/contact" in node._report()[1]
 
 
-@pytest.mark.parametrize("feet", [("", ""), ("sole", "sole")])
+@pytest.mark.parametrize("feet", [("", ""), ("sole", "sole"), ("sole", "/sole"), ("/a/b", "a/b")])
 def test_feet_that_are_none_or_one_are_refused(feet: tuple[str, str]) -> None:
     with pytest.raises(SettingsError, match="needed are the namespaces of two insoles, or of one"):
         GaitSettings(left=feet[0], right=feet[1])
