@@ -16,7 +16,7 @@ from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig
-from acts_recon.images import LEAST_NOISE_COUNTS, NOISE_COUNTS
+from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, NOISE_COUNTS
 from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
@@ -145,14 +145,14 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     regions_rate_hz: float = setting(
         0.0,
-        "largest rate of the topic regions [Hz]; 0: every frame",
+        "largest rate of the topic regions [Hz]; 0: every frame; from 2 down motion and slip are never found",
         minimum=0.0,
         maximum=1000.0,
         changeable=Changeable.RUNNING,
     )
     regions_slip_rate_hz: float = setting(
         250.0,
-        "topic regions: motion and slip are looked for so often at most [Hz]; 0: in every frame",
+        "topic regions: motion and slip are looked for so often at most [Hz]; 0: in every frame; otherwise at least 2",
         minimum=0.0,
         maximum=1000.0,
     )
@@ -176,6 +176,12 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         RealtimeConfig.__post_init__(self)
         SharpnessConfig.__post_init__(self)
         layout_path(self.layout)  # refuses what is neither a name nor a path
+        # Images that are farther apart than `LONGEST_PAUSE_S` are not compared.
+        if 0.0 < self.regions_slip_rate_hz < 1.0 / LONGEST_PAUSE_S:
+            raise SettingsError(
+                f"regions_slip_rate_hz = {self.regions_slip_rate_hz:g}: allowed are 0, for every frame, and "
+                f"{1.0 / LONGEST_PAUSE_S:g} and more: slip would never be found"
+            )
         for name in self.unused:
             value = getattr(self, name)
             if isinstance(value, str):

@@ -66,12 +66,14 @@ class SeriesPublisher:
             self._begins_anew = False
             self._numbers = SequenceNumbers()
             self._clear()
+        dropped = 0
         if len(self._stamps_ns) == _LONGEST:
+            dropped = _LONGEST + sum(self._missing)
             self._clear()
         self._stamps_ns.append(stamp_ns)
         self._force_n.append(contact.force_n)
         self._delay_s.append((time.time_ns() - stamp_ns) * 1e-9)
-        self._missing.append(self._numbers.step(sequence))
+        self._missing.append(dropped + self._numbers.step(sequence))
         self._newest, self._sequence = contact, sequence
 
     def publish(self, frame_id: str) -> None:

@@ -37,7 +37,8 @@ class Regions:
         Standard deviation of a measurement [counts].
     slip : SlipConfig, optional
     slip_rate_hz : float
-        Motion and slip are looked for so often at most [Hz]; 0: in every image.
+        Motion and slip are looked for so often at most [Hz]; 0: in every image. Images half a second apart are not
+        compared, so below 2 Hz nothing is found.
     sharpness : SharpnessConfig, optional
 
     Raises

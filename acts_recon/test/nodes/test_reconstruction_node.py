@@ -16,6 +16,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.parameter import Parameter
+from rclpy.serialization import deserialize_message
 from recon_bench import Bench, Peers, publisher_of, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
@@ -24,10 +25,12 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE, ArrayError, DictionaryError, ObjectLibraryError, SettingsError
 from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import Contact, ContactSeries
+from acts_recon.contacts import Contact as FoundContact
 from acts_recon.frame_pipeline import FramePipeline
 from acts_recon.fusion import FusionEstimator
 from acts_recon.nodes import reconstruction_node
 from acts_recon.nodes.images_publisher import ImagesPublisher
+from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.sparse import Dictionary, Reconstructor
 from acts_ros import qos
@@ -346,6 +349,23 @@ def test_viewers_get_every_contact_in_a_few_messages(make_bench: Callable[..., B
         begin += len(these)
 
 
+def test_contacts_that_are_dropped_because_nobody_publishes_them_are_missing(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(43)
+    series = SeriesPublisher(bench.node)
+    told: list[bytes] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(series._publisher, "publish", told.append)
+        # Of every hundred one is lost before it comes here.
+        for sequence in range(1, 3601):
+            if sequence % 100:
+                series.add(sequence, sequence, FoundContact())
+            if sequence in (1500, 3600):
+                series.publish("plate")
+    first, second = (deserialize_message(data, ContactSeries).missing for data in told)
+    assert len(first) + sum(first) == 1499
+    assert len(second) + sum(second) == 2100
+
+
 @pytest.mark.parametrize(
     ("parameters", "error", "word"),
     [
@@ -367,6 +387,7 @@ def test_viewers_get_every_contact_in_a_few_messages(make_bench: Callable[..., B
         ({"touch_counts": 1024}, SettingsError, "touch_counts = 1024"),
         ({"image_rate_hz": "fast"}, SettingsError, "image_rate_hz = 'fast'"),
         ({"force_half_n": ".nan"}, SettingsError, "force_half_n"),
+        ({"regions_slip_rate_hz": 1.9}, SettingsError, "regions_slip_rate_hz = 1.9: allowed are 0.* and 2 and more"),
         ({"force_response": "/no/response.csv"}, SettingsError, "/no/response.csv: cannot be read"),
     ],
 )
