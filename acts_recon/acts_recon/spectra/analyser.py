@@ -67,7 +67,7 @@ class SpectrumAnalyser:
     response : Response, optional
         From counts to newtons.
     touch_counts : float
-        A taxel is touched whose mean is above.
+        A taxel is touched whose mean is above, or half of whose readings are.
     noise_counts : float
         Standard deviation of a reading.
     config : SpectraConfig, optional
@@ -142,11 +142,23 @@ class SpectrumAnalyser:
         window = _in_one(frames)
         size = self._geometry.size
         number = np.bincount(window.places, minlength=size)
-        mean = np.bincount(window.places, weights=window.counts, minlength=size) / np.maximum(number, 1)
+        mean = self._mean_of_touch(window, number)
         labels = self._labels(mean)
         contacts = [np.flatnonzero((labels == label) & (number > 0)) for label in range(1, int(labels.max()) + 1)]
         found = [self._of(window, places, mean) for places in contacts]
         return tuple(sorted((one for one in found if one is not None), key=lambda one: -one.force_n))
+
+    def _mean_of_touch(self, window: _Window, number: NDArray[np.intp]) -> Array:
+        """What each taxel reads in the mean; of one that was touched for half of the window, while it was."""
+        size = number.size
+        mean = np.bincount(window.places, weights=window.counts, minlength=size) / np.maximum(number, 1)
+        is_above = window.counts > self._touch_counts
+        places, counts = window.places[is_above], window.counts[is_above]
+        touched = np.bincount(places, minlength=size)
+        while_touched = np.bincount(places, weights=counts, minlength=size) / np.maximum(touched, 1)
+        # A light touch that began within the window is none in the mean.
+        is_light = (mean <= self._touch_counts) & (touched > 0) & (touched >= _LEAST_SHARE * number)
+        return np.where(is_light, while_touched, mean)
 
     def _labels(self, mean: Array) -> NDArray[np.intp]:
         """The number of the contact that each taxel belongs to, 0: none; shape (taxels,)."""

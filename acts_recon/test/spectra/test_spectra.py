@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.skin import ForceResponse, layout
+from acts_core.skin import ForceResponse, force_table, layout
 from acts_recon.spectra import SpectraConfig, Spectrum, SpectrumAnalyser
 
 GEOMETRY = ArrayGeometry()
@@ -128,6 +128,21 @@ def test_a_press_that_begins_or_ends_within_the_window_has_no_tones_of_its_own(b
         assert spectrum.peaks[0].amplitude_n == pytest.approx(0.3, rel=0.05)
         assert spectrum.force_n == pytest.approx(3.0, rel=0.05)
         assert first_s + before_s - 0.01 < spectrum.begin_s < spectrum.end_s < first_s + 1.01 - after_s
+
+
+@pytest.mark.parametrize("is_first", [False, True])
+def test_a_light_press_that_was_there_for_most_of_the_window_has_a_spectrum(is_first: bool) -> None:
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
+    # 85 counts on the hardest pressed taxels.
+    force_n = float(force_table(RESPONSE)[85]) * 9
+    end_s = 1.7e9
+    for seconds, pressed in ((0.65, True), (0.35, False)) if is_first else ((0.35, False), (0.65, True)):
+        frames = round(seconds / FRAME_S)
+        hear(analyser, {87.3: 0.03} if pressed else {}, force_n=force_n * pressed, first_s=end_s, frames=frames)
+        end_s += frames * FRAME_S
+    (spectrum,) = analyser.spectra()
+    assert spectrum.peaks[0].frequency_hz == pytest.approx(87.3, abs=0.5)
+    assert spectrum.peaks[0].amplitude_n == pytest.approx(0.03, rel=0.2)
 
 
 @pytest.mark.parametrize("of", ["contacts", "patches"])
