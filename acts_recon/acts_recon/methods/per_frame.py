@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
+from acts_core.errors import DictionaryError, SettingsError
 from acts_core.files import path_of
 from acts_core.settings import default_of, setting, validate
 from acts_recon.images import require_times
@@ -68,6 +68,10 @@ class PerFrame(Method):
         if dictionary is None:
             given = path_of(config.dictionary, error=SettingsError) if config.dictionary else shipped_dictionary_path()
             dictionary = load_dictionary(given)
+            try:
+                dictionary.require_unit_atoms()
+            except DictionaryError as error:
+                raise DictionaryError(f"{given}: {error}") from None
         self._reconstructor = Reconstructor(
             skin.geometry,
             dictionary,

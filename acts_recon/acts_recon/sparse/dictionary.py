@@ -26,6 +26,8 @@ _FILE = ModelFile(
     error=DictionaryError,
 )
 
+_NORM_ERROR = 1e-3
+
 
 @dataclass(frozen=True)
 class Dictionary:
@@ -71,6 +73,23 @@ class Dictionary:
     def n_atoms(self) -> int:
         """Number of atoms."""
         return int(self.atoms.shape[1])
+
+    def require_unit_atoms(self) -> None:
+        """Check that each atom has the norm 1, or is all 0: the recovery takes them for that, and else goes wrong.
+
+        Raises
+        ------
+        DictionaryError
+            When the norm of one is off by more than a thousandth.
+        """
+        norms = np.linalg.norm(self.atoms.astype(np.float64), axis=0)
+        is_wrong = (norms > 0.0) & (np.abs(norms - 1.0) > _NORM_ERROR)
+        if is_wrong.any():
+            atom = int(is_wrong.argmax())
+            raise DictionaryError(
+                f"atom {atom} has the norm {norms[atom]:.4g}: needed is 1, or 0 for one that is not used; divide each "
+                "atom by its norm"
+            )
 
     @property
     def sha256(self) -> str:
