@@ -20,7 +20,6 @@ from acts_recon.frame_order import FrameOrder
 from acts_recon.images import BaselineSubtraction
 from acts_recon.settings import ReconstructionConfig
 
-
 # A change of the baseline by no more is drift: it is published from half a count on, once a second at most.
 _DRIFT_COUNTS = 2.0
 

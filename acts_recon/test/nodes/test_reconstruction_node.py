@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,7 @@ from acts_recon.nodes import reconstruction_node
 from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionSettings
-from acts_recon.sparse import Dictionary, Reconstructor, save_dictionary
+from acts_recon.sparse import Dictionary, Reconstructor
 from acts_ros import qos
 
 pytestmark = pytest.mark.slow
@@ -397,16 +396,6 @@ def test_wrong_parameters_are_refused_at_start(
 ) -> None:
     with pytest.raises(error, match=word):
         make_bench(44, **parameters)
-
-
-def test_a_dictionary_whose_atoms_are_too_long_is_refused(tmp_path: Path, dictionary: Dictionary) -> None:
-    lengths = np.where(np.arange(dictionary.n_atoms) == 7, 1.5, 1.0).astype(np.float32)
-    lengths[8] = 0.0
-    for path, atoms in ((tmp_path / "good.npz", dictionary.atoms), (tmp_path / "long.npz", dictionary.atoms * lengths)):
-        save_dictionary(Dictionary(atoms, 8), path)
-    with pytest.raises(DictionaryError, match=r"long.npz: atom 7 has the norm 1.5: needed is 1, or 0"):
-        ReconstructionSettings(method="per_frame", dictionary=str(tmp_path / "long.npz")).recovery()
-    ReconstructionSettings(method="per_frame", dictionary=str(tmp_path / "good.npz")).recovery()
 
 
 def test_what_the_method_does_not_use_is_known_by_name() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from acts_core.errors import DictionaryError
+from acts_recon.settings import ReconstructionSettings
 from acts_recon.sparse import Dictionary, load_dictionary, save_dictionary, shipped_dictionary_path
 
 
@@ -136,3 +137,13 @@ def test_the_patch_size_asked_for_is_needed(tmp_path: Path) -> None:
 
 def test_the_installed_dictionary_is_found() -> None:
     assert load_dictionary(shipped_dictionary_path(), patch_size=8).n_atoms == 1000
+
+
+def test_a_dictionary_whose_atoms_are_too_long_is_refused(tmp_path: Path, dictionary: Dictionary) -> None:
+    lengths = np.where(np.arange(dictionary.n_atoms) == 7, 1.5, 1.0).astype(np.float32)
+    lengths[8] = 0.0
+    for path, atoms in ((tmp_path / "good.npz", dictionary.atoms), (tmp_path / "long.npz", dictionary.atoms * lengths)):
+        save_dictionary(Dictionary(atoms, 8), path)
+    with pytest.raises(DictionaryError, match=r"long.npz: atom 7 has the norm 1.5: needed is 1, or 0"):
+        ReconstructionSettings(method="per_frame", dictionary=str(tmp_path / "long.npz")).recovery()
+    ReconstructionSettings(method="per_frame", dictionary=str(tmp_path / "good.npz")).recovery()
