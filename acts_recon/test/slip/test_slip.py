@@ -188,10 +188,10 @@ def test_after_a_pause_it_begins_anew() -> None:
 def test_creep_is_no_slip_after_a_gap_but_slip_is(gap_s: float, rate_hz: float) -> None:
     def is_told(speed_m_s: float) -> bool:
         detector, rng, told = SlipDetector(SIDE, SIDE, PITCH_M), np.random.default_rng(5), False
-        for time_s in np.arange(0.0, 1.0, 1.0 / rate_hz):
+        for time_s in np.arange(0.0, 1.0, 1.0 / rate_hz).tolist():
             if not 0.3 < time_s < 0.3 + gap_s:
                 image = noisy(press(3.4, 2.5 + time_s * speed_m_s / PITCH_M), rng)
-                told |= detector.step(float(time_s), image).slipping and time_s > 0.3
+                told |= detector.step(time_s, image).slipping and time_s > 0.3
         return told
 
     assert not is_told(0.001)
