@@ -88,7 +88,8 @@ def read_npz(
         if not is_npz:
             raise error(f"{path}: not an npz file, or a part of one{tail}")
         with zipfile.ZipFile(path) as archive:
-            wanted = [entry for entry in archive.infolist() if names is None or entry.filename[:-4] in names]
+            entries = archive.infolist()
+            wanted = [one for one in entries if names is None or one.filename.removesuffix(".npy") in names]
         unpacked = sum(entry.file_size for entry in wanted)
         if unpacked > limit_bytes:
             raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed are {limit_bytes / 1e6:.0f} MB{tail}")
@@ -98,6 +99,9 @@ def read_npz(
                 if names is None or name in names:
                     with _objects_refused(path, name, error):
                         content[name] = arrays[name]
+                    # NumPy passes on the bytes of what is none.
+                    if not isinstance(content[name], np.ndarray):
+                        raise error(f"{path}: {name} is no array{tail}")
             return content
     except OSError as failure:
         raise error(f"{path}: cannot be read ({failure.strerror or failure}){tail}") from failure

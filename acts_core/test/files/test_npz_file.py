@@ -63,6 +63,19 @@ def test_what_unpacks_to_more_than_is_allowed_is_not_unpacked(tmp_path: Path) ->
     assert read_npz(path, ("small",), error=ActsError, limit_bytes=1000).keys() == {"small"}
 
 
+@pytest.mark.parametrize("member", ["large.npy", "large"])
+def test_what_is_no_array_is_refused_and_its_size_counts(member: str, tmp_path: Path) -> None:
+    path = tmp_path / "x.npz"
+    np.savez(path, small=np.zeros(10))
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as file:
+        file.writestr(member, bytes(10**6))
+    with pytest.raises(SettingsError, match=r"x\.npz: large is no array; make it anew$"):
+        read_npz(path, ("large",), error=SettingsError, hint="make it anew")
+    with pytest.raises(SettingsError, match="unpacks to 1 MB; allowed are 0 MB"):
+        read_npz(path, ("large",), error=SettingsError, limit_bytes=400_000)
+    assert read_npz(path, ("small",), error=SettingsError, limit_bytes=1000).keys() == {"small"}
+
+
 def test_how_much_a_file_unpacks_to_is_known_without_unpacking_it(tmp_path: Path) -> None:
     path = tmp_path / "x.npz"
     np.savez_compressed(path, a=np.zeros(10**6, dtype=np.uint8))
