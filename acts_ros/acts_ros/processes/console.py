@@ -50,7 +50,7 @@ class Console:
 
     def __init__(self, folder: Path | None, screen: TextIO | None = None) -> None:
         self._stream = sys.stdout if screen is None else screen
-        self._screen = Screen(self._stream)
+        self._screen: Screen | None = Screen(self._stream)
         self._log: TextIO | None = (
             None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
         )
@@ -59,12 +59,11 @@ class Console:
     @property
     def is_behind(self) -> bool:
         """Whether lines wait until somebody reads the screen; see `catch_up`."""
-        return self._screen.is_behind and not self.screen_lost
+        return self._screen is not None and self._screen.is_behind and not self.screen_lost
 
     def catch_up(self, timeout_s: float = 0.0) -> None:
         """Write lines that wait, as far as the screen is read within a time [s]."""
-        if not self.screen_lost:
-            self._to_screen(lambda: self._screen.catch_up(timeout_s))
+        self._to_screen(lambda screen: screen.catch_up(timeout_s))
 
     def close(self) -> None:
         """Close the log file."""
@@ -87,16 +86,21 @@ class Console:
                 with suppress(OSError):
                     log.close()
                 self.say("WARNING", "launch", f"{log.name} ends here: {error.strerror}")
-        if to_screen and not self.screen_lost:
-            self._to_screen(lambda: self._screen.write(line))
+        if to_screen:
+            self._to_screen(lambda screen: screen.write(line))
 
-    def _to_screen(self, write: Callable[[], None]) -> None:
+    def _to_screen(self, write: Callable[[Screen], None]) -> None:
+        if self._screen is None or self.screen_lost:
+            return
         try:
-            write()
+            write(self._screen)
         except BrokenPipeError:
             # The reader of our output has ended; the launcher notices and stops its processes in order.
             self.screen_lost = True
         except OSError:
-            # A file on a full disk: likewise, what is launched goes on. What Python still holds goes nowhere.
-            with suppress(OSError):
-                os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+            # A file on a full disk, or a terminal that is gone under nohup: likewise, what is launched goes on, now
+            # without a screen. What Python still holds goes nowhere.
+            self._screen.close()
+            self._screen = None
+            with suppress(OSError), Path(os.devnull).open("wb") as nowhere:
+                os.dup2(nowhere.fileno(), self._stream.fileno())

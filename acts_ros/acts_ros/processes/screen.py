@@ -10,6 +10,7 @@ import os
 import select
 import stat
 import time
+from contextlib import suppress
 from typing import TextIO
 
 # What waits for a reader; some ten thousand lines.
@@ -44,6 +45,14 @@ class Screen:
     def is_behind(self) -> bool:
         """Whether lines wait for a reader."""
         return bool(self._waiting)
+
+    def close(self) -> None:
+        """Drop what waits, and close the file of its own; the stream stays open."""
+        self._waiting.clear()
+        if self._file is not None:
+            number, self._file = self._file, None
+            with suppress(OSError):
+                os.close(number)
 
     def write(self, line: str) -> None:
         """Write a line, now or later; where too much waits already it is left out, which is told in its place."""

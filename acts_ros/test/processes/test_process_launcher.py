@@ -10,6 +10,7 @@ import errno
 import fcntl
 import io
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -325,3 +326,18 @@ def test_on_a_full_disk_the_output_goes_on_without_the_log_and_the_launch_withou
     for text in ("one", "two", "three"):
         full.say("INFO", "it", text)
     assert not full.screen_lost
+
+
+def test_a_terminal_that_is_gone_is_given_up_once_and_takes_no_files() -> None:
+    # As after the end of a remote session under nohup: each write to it fails.
+    master, slave = pty.openpty()
+    with os.fdopen(slave, "w") as stream:
+        before = len(list(Path("/proc/self/fd").iterdir()))
+        console = Console(None, stream)
+        os.close(master)
+        for number in range(100):
+            console.say("INFO", "it", f"line {number}")
+        assert len(list(Path("/proc/self/fd").iterdir())) == before - 1
+        assert not console.is_behind
+        assert not console.screen_lost
+        assert os.fstat(stream.fileno()).st_rdev == Path(os.devnull).stat().st_rdev
