@@ -36,6 +36,8 @@ _YOUNG_S = 2.0
 _DRAIN_S = 0.5
 # How often lines that nobody has read are tried again.
 _CATCH_UP_S = 0.1
+# The system refuses to wait for weeks; after as long, the loop only looks again.
+_WAIT_S_MAX = 3600.0
 # So long before it would be killed, a process that hangs is to say where.
 _LAST_WORDS_S = 0.5
 # One that writes without a pause is read no further in a turn; far more than a pipe holds, so that its rest is read.
@@ -197,7 +199,7 @@ class Launcher:
         deadlines = [child.restart_at_s for child in self._children if child.restart_at_s is not None]
         deadlines += [child.escalations[0][0] for child in self._children if child.popen and child.escalations]
         deadlines += [time.monotonic() + _CATCH_UP_S] if self._console.is_behind else []
-        return max(0.0, min(deadlines) - time.monotonic()) if deadlines else None
+        return min(max(0.0, min(deadlines) - time.monotonic()), _WAIT_S_MAX) if deadlines else None
 
     def _start(self, child: _Child) -> None:
         child.restart_at_s = None

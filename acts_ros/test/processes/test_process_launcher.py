@@ -157,6 +157,14 @@ threading.Event().wait()
         assert "sending signal 'SIGKILL'" not in run.output
 
 
+def test_times_to_stop_of_any_length_are_waited_for(tmp_path: Path) -> None:
+    program = PROGRAM.replace("Console(None), ", "Console(None), 9999999.0, 1e300, ")
+    with running(tmp_path, program) as run:
+        run.process.send_signal(signal.SIGINT)
+        assert run.process.wait(DEADLINE_S) == 0
+        assert "Traceback" not in run.output
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_that_comes_when_all_has_ended_changes_nothing(tmp_path: Path, number: signal.Signals) -> None:
     with running(tmp_path, PROGRAM, "wait") as run:
