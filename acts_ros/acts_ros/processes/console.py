@@ -51,9 +51,10 @@ class Console:
     def __init__(self, folder: Path | None, screen: TextIO | None = None) -> None:
         self._stream = sys.stdout if screen is None else screen
         self._screen: Screen | None = Screen(self._stream)
-        self._log: TextIO | None = (
-            None if folder is None else (folder / "launch.log").open("a", buffering=1, encoding="utf-8")
-        )
+        self._log: TextIO | None = None
+        if folder is not None:
+            # Arguments of a process may be no text at all.
+            self._log = (folder / "launch.log").open("a", buffering=1, encoding="utf-8", errors="backslashreplace")
         self.screen_lost = False
 
     @property

@@ -310,6 +310,20 @@ def test_what_the_screen_or_the_log_cannot_write_is_shown_otherwise(tmp_path: Pa
     assert "grün\n" in (tmp_path / "launch.log").read_text(encoding="utf-8")
 
 
+def test_a_process_with_an_argument_that_is_no_text_may_die_beside_one_that_stays(tmp_path: Path) -> None:
+    raw = io.BytesIO()
+    console = Console(tmp_path, io.TextIOWrapper(raw, encoding="utf-8"))
+    odd = Process("odd", ("/bin/sh", "-c", "exit 1", "x:=/tmp/\udcff"), dict(os.environ), "screen", False, 0.0)
+    # It says so only after the other has died.
+    log = tmp_path / "launch.log"
+    healthy = shell(f"until grep -q 'odd.*has died' {log}; do sleep 0.02; done; echo healthy")
+    assert Launcher(console).run([odd, healthy]) == 1
+    console.close()
+    for text in (raw.getvalue().decode(), log.read_text(encoding="utf-8")):
+        assert "cmd '/bin/sh -c exit 1 x:=/tmp/\\udcff'" in text
+    assert "[it] healthy" in raw.getvalue().decode()
+
+
 class Full(io.StringIO):
     """A file on a disk that becomes full."""
 
