@@ -47,9 +47,9 @@ NETWORK_HINT = (
     "behind a mirror or a proxy set PIP_INDEX_URL or HTTPS_PROXY."
 )
 TOOLS = {"g++": "g++", "cmake": "cmake", "make": "make"}
-# A change to one of these asks for a new colcon build; Python modules do not, they are linked into the installation.
+# A change to one of these, or of this file, asks for a new colcon build; Python modules do not, they are linked into
+# the installation.
 BUILD_INPUTS = (
-    "package.xml",
     "setup.py",
     "setup.cfg",
     "CMakeLists.txt",
@@ -58,8 +58,10 @@ BUILD_INPUTS = (
     "*.cpp",
     "*.hpp",
     "*.h",
-    "*.launch.xml",
+    "*.xml",
     "*.yaml",
+    "*.json",
+    "*.rviz",
     "*.npz",
 )
 
@@ -262,7 +264,7 @@ def build_workspace() -> None:
     ]
     # New and removed modules and executables count as well as changed build files.
     names = " ".join(str(path.relative_to(ROOT)) for package in packages() for path in sorted(package.rglob("*.py")))
-    wanted = digest(files, names, (VENV / "acts.stamp").read_text())
+    wanted = digest([*files, Path(__file__).resolve()], names, (VENV / "acts.stamp").read_text())
     stamp = STATE / "build.stamp"
     if up_to_date(stamp, wanted):
         return

@@ -95,6 +95,36 @@ def test_the_build_reads_paths_as_utf_8(bootstrap: ModuleType, tmp_path: Path, m
     assert path.read_text() == '  file(STRINGS "${idl_output}" idl_tuples ENCODING UTF-8)\n'
 
 
+@pytest.mark.parametrize("package", ["config", "launch"])
+def test_a_change_of_any_file_that_is_installed_asks_for_a_build(bootstrap: ModuleType, package: str) -> None:
+    folder = BOOTSTRAP.parents[1] / package
+    listed = subprocess.run(["git", "ls-files"], cwd=folder, capture_output=True, text=True)
+    if listed.returncode != 0:
+        pytest.skip("no checkout of git, which would tell files of the project from others")
+    # Its history is not installed.
+    names = set(listed.stdout.split()) - {"CHANGELOG.rst"}
+    assert len(names) > 5
+    assert [name for name in names if not any(map(Path(name).match, bootstrap.BUILD_INPUTS))] == []
+
+
+def test_a_change_of_the_set_up_itself_asks_for_a_build(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    script = tmp_path / "scripts" / "bootstrap.py"
+    script.parent.mkdir()
+    script.write_text("one")
+    (tmp_path / "acts.stamp").touch()
+    built = []
+    for name, value in {"__file__": str(script), "ROOT": tmp_path, "STATE": tmp_path, "VENV": tmp_path}.items():
+        monkeypatch.setattr(bootstrap, name, value)
+    monkeypatch.setattr(bootstrap, "run", lambda *_, **__: built.append(script.read_text()))
+    monkeypatch.setattr(bootstrap, "write_first_lines", lambda: None)
+    for text in ("one", "one", "two"):
+        script.write_text(text)
+        bootstrap.build_workspace()
+    assert built == ["one", "two"]
+
+
 def test_without_network_the_last_line_speaks_of_it(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
