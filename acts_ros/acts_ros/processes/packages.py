@@ -9,7 +9,7 @@ import os
 import re
 import shutil
 from collections.abc import Mapping
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from acts_core.errors import LaunchError
 
@@ -80,7 +80,11 @@ def launch_file(package: str, name: str, environment: Mapping[str, str]) -> Path
         There is none of this name, or more than one.
     """
     root = share(package, environment)
-    found = sorted(path for path in root.rglob(name) if path.is_file())
+    # A name, or the end of a path below the share folder; what is neither, or looks like a pattern, is in none.
+    wanted = PurePath(name).parts
+    found = sorted(
+        path for path in root.rglob("*") if path.relative_to(root).parts[-len(wanted) :] == wanted and path.is_file()
+    )
     if len(found) == 1:
         return found[0]
     if found:
