@@ -10,6 +10,7 @@ from typing import TypeAlias
 import yaml
 
 from acts_core.errors import LaunchError
+from acts_core.yaml_values import YamlLoader
 from acts_tools.launch import substitutions
 from acts_tools.launch.substitutions import Scope, Template
 
@@ -130,10 +131,14 @@ def _yaml(text: str, type_name: str | None, embedded: bool) -> Scalar | list[Sca
     if not text:
         return text
     try:
-        value = yaml.safe_load(text)
+        value = yaml.load(text, YamlLoader)
     except yaml.YAMLError as error:
         if embedded:
             return text
+        raise _mismatch(text, type_name) from error
+    except (ValueError, LookupError, AttributeError, RecursionError) as error:
+        # A time stamp such as 2024-13-45, or see `YamlLoader`; a tag with what it cannot be, such as `!!bool x`;
+        # thousands of brackets. No substitution makes that right.
         raise _mismatch(text, type_name) from error
     if isinstance(value, list):
         kinds = {type(item) for item in value}

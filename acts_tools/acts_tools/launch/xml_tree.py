@@ -98,4 +98,7 @@ def read_xml(path: Path) -> Element:
         parser.Parse(text, True)
     except expat.ExpatError as error:
         raise PlacedError(f"{path}:{error.lineno}: not well-formed XML: {expat.errors.messages[error.code]}") from error
+    except (LookupError, ValueError) as error:
+        # Of an encoding that XML has and we have not.
+        raise PlacedError(f"{path}:{parser.CurrentLineNumber}: cannot be read: {error}") from error
     return roots[0]

@@ -18,6 +18,8 @@ from acts_tools.launch.evaluate import Plan, evaluate
 from acts_tools.launch.show import show_arguments
 
 Launch = Callable[..., Plan]
+PARAM = '<node pkg="fake" exec="node"><param name="a" value="{}"/></node>'
+FAR_TOO_LONG = (5000 * "9", f"0x{5000 * 'f'}", 3000 * "[")
 NODE = '<node pkg="fake" exec="node" args="{}"/>'
 
 
@@ -285,6 +287,15 @@ def test_respawn_output_and_programs_outside_of_packages(launch: Launch) -> None
         ),
         ('<node pkg="fake" exec="node"><param name="a" value="x" type="int"/></node>', "Cannot convert value 'x'"),
         ('<node pkg="fake" exec="node"><param name="a" value="{b: 1}"/></node>', "Cannot convert value '{b: 1}'"),
+        *(
+            (PARAM.format(value + kind), "Cannot convert value '")
+            for value in ("2024-13-45", "[2024-13-45, $(dirname)]", "!!bool x", "!!timestamp x", *FAR_TOO_LONG)
+            for kind in ("", '" type="yaml', '" type="list_of_int', '" type="bool')
+        ),
+        *(
+            (f'<let name="b" value="{value}"/>{PARAM.format("$(var b)")}', value)
+            for value in ("2024-13-45", *FAR_TOO_LONG)
+        ),
         (
             '<node pkg="fake" exec="node"><param from="/no/such.yaml"/></node>',
             "Parameter file path is not a file: /no/such.yaml",
@@ -307,6 +318,7 @@ def test_respawn_output_and_programs_outside_of_packages(launch: Launch) -> None
         ('<node pkg="fake" exec="node" respawn="maybe"/>', "Cannot convert value 'maybe' to 'bool'"),
         ('<node pkg="fake" exec="node" output="loud"/>', "loud is not a valid standard output config"),
     ],
+    ids=lambda text: text[:100],
 )
 def test_what_is_wrong_is_refused_in_the_real_words_with_file_and_line(launch: Launch, body: str, message: str) -> None:
     with pytest.raises(LaunchError) as caught:
@@ -337,6 +349,10 @@ def test_a_missing_required_argument_is_named_with_its_description(launch: Launc
         ("<launch>\n<arg", "xml:2: not well-formed XML"),
         ("", "not well-formed XML: no element"),
         ("<other/>", "'launch' as root"),
+        *(
+            (f'<?xml version="1.0" encoding="{name}"?>\n<launch/>', r"xml:1: (cannot be read|not well-formed XML): ")
+            for name in ("utf-7", "utf-16", "utf-32", "no-such", "hex", "idna", "punycode", "shift_jis", "rot13")
+        ),
     ],
 )
 def test_files_that_are_no_launch_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
