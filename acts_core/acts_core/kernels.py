@@ -78,7 +78,8 @@ def kernel(
     Returns
     -------
     callable
-        Type checkers know what it returns, not what it takes: numba converts arguments where it can.
+        Type checkers know what it returns, not what it takes: numba converts arguments where it can. With
+        ``NUMBA_DISABLE_JIT=1`` the function itself.
     """
     if function is None:
         return lambda decorated: _compiled(decorated, options)
@@ -104,6 +105,9 @@ def skip_extras() -> None:
 
 
 def _compiled(function: Callable[..., R], options: dict[str, Any]) -> Callable[..., R]:
+    if numba.config.DISABLE_JIT:
+        # To look for an error by a debugger: numba compiles nothing, and has nothing to be kept.
+        return function
     before = numba.config.CACHE_DIR
     # Read while a function is decorated, and at no other time.
     folder = cache_folder(function)

@@ -210,3 +210,15 @@ def test_a_kernel_is_compiled_for_types_and_not_for_each_constant(run: Run, pack
     # The variable begins as a constant as well.
     assert run("from acts_kerneltest.counting import count; result = count(3)") == (3 + 11, True)
     assert len(list(package.rglob("counting.more-*.nbc"))) == 1
+
+
+def test_where_numba_is_told_to_compile_nothing_a_kernel_is_its_function(package: Path) -> None:
+    code = "from acts_kerneltest.outer import twice; print(twice(0), type(twice).__name__)"
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    # Its folder is the first of sys.path.
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=package.parent, env=environment, capture_output=True, text=True
+    )
+    assert done.stderr == ""
+    assert done.stdout == "2 function\n"
+    assert folders(package) == []
