@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import os
+import secrets
 import shlex
 import shutil
 import sys
@@ -116,8 +117,10 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
     from acts_tools.launch.evaluate import evaluate
 
     timeouts_s = [_seconds(name, values.get(name, "5")) for name in _TIMEOUTS]
-    with tempfile.TemporaryDirectory(prefix="acts_launch_") as folder:
-        plan = evaluate(file, values, os.environ, Path(folder))
+    # Made at the first params file: a launcher that is killed leaves it behind. Nobody else can know its name.
+    folder = Path(tempfile.gettempdir()) / f"acts_launch_{secrets.token_hex(8)}"
+    try:
+        plan = evaluate(file, values, os.environ, folder)
         _require_declared(set(values) - set(_TIMEOUTS), plan.declared)
         if only_print:
             for text in plan.warnings:
@@ -140,6 +143,8 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
             return Launcher(console, *timeouts_s).run(plan.processes)
         finally:
             console.close()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _require_declared(given: set[str], declared: set[str]) -> None:

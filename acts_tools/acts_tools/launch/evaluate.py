@@ -75,7 +75,7 @@ def evaluate(file: Path, arguments: Mapping[str, str], environment: Mapping[str,
     environment : mapping of str to str
         Environment to find packages in, and of the processes, with the file's `set_env` added.
     parameter_folder : Path
-        Existing folder for the params files made from `param name value`.
+        Folder for the params files made from `param name value`; made with the first of them where it does not exist.
 
     Returns
     -------
@@ -226,6 +226,7 @@ class _Evaluator:
         )
 
     def _write_parameter(self, node: str, name: str, value: parameters.Scalar | list[parameters.Scalar]) -> Path:
+        self._parameter_folder.mkdir(mode=0o700, exist_ok=True)
         number = sum(1 for _ in self._parameter_folder.iterdir())
         path = self._parameter_folder / f"launch_params_{number}.yaml"
         path.write_text(yaml.safe_dump({node: {"ros__parameters": {name: value}}}, default_flow_style=False))

@@ -275,3 +275,18 @@ def test_the_temporary_parameter_files_are_removed(prefix: Prefix) -> None:
         assert "[show-1]     a: 5" in run.output
         (path,) = re.findall(r"path (.*)", run.output)
         assert not os.path.exists(path)  # noqa: PTH110 - a plain string of the output
+
+
+def test_a_launcher_that_is_killed_leaves_temporary_files_only_where_the_file_has_parameters(
+    prefix: Prefix, tmp_path: Path
+) -> None:
+    prefix.python("patient", PATIENT)
+    body = '<node pkg="fake" exec="patient" output="screen">{}</node>'
+    for parameters, count in (("", 0), ('<param name="a" value="5"/>', 1)):
+        folder = tmp_path / f"temporary_{count}"
+        folder.mkdir()
+        with launch(prefix, body.format(parameters), environment={"TMPDIR": str(folder)}) as run:
+            run.wait_for_output("ready")
+            run.process.kill()
+            run.process.wait()
+        assert len(list(folder.iterdir())) == count
