@@ -121,7 +121,7 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
     folder = Path(tempfile.gettempdir()) / f"acts_launch_{secrets.token_hex(8)}"
     try:
         plan = evaluate(file, values, os.environ, folder)
-        _require_declared(set(values) - set(_TIMEOUTS), plan.declared)
+        _require_declared(set(values) - set(_TIMEOUTS), plan.declared, file)
         if only_print:
             for text in plan.warnings:
                 print(f"warning: {text}", file=sys.stderr)
@@ -147,9 +147,15 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _require_declared(given: set[str], declared: set[str]) -> None:
-    """Raise for a misspelt argument, which would silently have no effect."""
+def _require_declared(given: set[str], declared: set[str], file: Path) -> None:
+    """Raise for an argument that would silently have no effect: it is misspelt, or its condition does not hold."""
+    from acts_tools.launch.show import listed_arguments
+
     for name in sorted(given - declared):
+        if name in listed_arguments(file, os.environ):
+            raise LaunchError(
+                f"the argument '{name}' has no effect here: it is declared under a condition that does not hold"
+            )
         nearest = get_close_matches(name, sorted(declared), n=1)
         hint = f"did you mean '{nearest[0]}'? " if nearest else ""
         known = ", ".join(sorted(declared)) or "none"

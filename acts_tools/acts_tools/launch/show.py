@@ -48,6 +48,13 @@ def show_arguments(file: Path, environment: Mapping[str, str]) -> str:
     return "\n".join(lines)
 
 
+def listed_arguments(file: Path, environment: Mapping[str, str]) -> set[str]:
+    """Names of the arguments that `show_arguments` describes; its parameters."""
+    return {
+        argument.name for argument, _ in _collect(parse_file(file), Scope({}, dict(environment), file), False, (file,))
+    }
+
+
 def _collect(
     actions: tuple[AnyAction, ...], scope: Scope, conditional: bool, within: tuple[Path, ...]
 ) -> Iterator[tuple[DeclareArgument, bool]]:

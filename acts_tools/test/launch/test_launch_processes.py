@@ -268,6 +268,20 @@ def test_an_invalid_file_starts_nothing(prefix: Prefix) -> None:
         assert not pids(run)
 
 
+def test_an_argument_without_effect_starts_nothing_and_the_reason_is_told(prefix: Prefix) -> None:
+    prefix.launch("inner.launch.xml", '<arg name="port" default="a"/>')
+    body = '<arg name="sim" default="1"/><include file="$(dirname)/inner.launch.xml" unless="$(var sim)"/>'
+    with launch(prefix, body, port="b") as run:
+        assert run.wait() == 1
+        reason = "the argument 'port' has no effect here: it is declared under a condition that does not hold"
+        assert run.output == f"error: {reason}\n"
+    with launch(prefix, body, port="b", sim="0") as run:
+        assert run.wait() == 0
+    with launch(prefix, body, prot="b") as run:
+        assert run.wait() == 1
+        assert "the launch file declares no argument 'prot'; declared: sim" in run.output
+
+
 def test_the_temporary_parameter_files_are_removed(prefix: Prefix) -> None:
     prefix.script("show", '#!/bin/sh\ncat "$3"\necho "path $3"\n')
     with launch(prefix, '<node pkg="fake" exec="show" output="screen"><param name="a" value="5"/></node>') as run:
