@@ -208,17 +208,17 @@ class _Evaluator:
 
     def _executable(self, action: Executable, scope: Scope) -> None:
         words = [substitutions.perform(word, scope) for word in action.command]
-        program = _on_path(words[0], scope)
+        environment = dict(scope.environment)
+        for variable, value in action.environment:
+            environment[substitutions.perform(variable, scope)] = substitutions.perform(value, scope)
+        # As the system looks it up, where the process has a PATH of its own.
+        program = _on_path(words[0], environment)
         name = program.name if action.name is None else substitutions.perform(action.name, scope)
-        added = {
-            substitutions.perform(variable, scope): substitutions.perform(value, scope)
-            for variable, value in action.environment
-        }
         self.plan.processes.append(
             Process(
                 label=f"{name}-{len(self.plan.processes) + 1}",
                 command=(str(program), *words[1:]),
-                environment={**scope.environment, **added},
+                environment=environment,
                 output=_output(action, scope),
                 respawn=bool(parameters.coerce(substitutions.perform(action.respawn, scope), "bool")),
                 respawn_delay_s=action.respawn_delay_s,
@@ -310,11 +310,11 @@ def _program(node: Node, scope: Scope) -> Path:
     name = substitutions.perform(node.executable, scope)
     if node.package is not None:
         return packages.executable(substitutions.perform(node.package, scope), name, scope.environment)
-    return _on_path(name, scope)
+    return _on_path(name, scope.environment)
 
 
-def _on_path(name: str, scope: Scope) -> Path:
-    found = shutil.which(name, path=scope.environment.get("PATH"))
+def _on_path(name: str, environment: Mapping[str, str]) -> Path:
+    found = shutil.which(name, path=environment.get("PATH"))
     if found is None:
         raise LaunchError(f"executable '{name}' not found on the PATH")
     return Path(found)

@@ -92,6 +92,13 @@ def test_an_executable_gets_its_words_and_environment_and_nothing_of_ros(launch:
     assert (shell.label, len(shell.command), "OWN" in shell.environment) == ("sh-2", 1, False)
 
 
+def test_an_executable_is_looked_up_in_its_own_path(launch: Launch, node: Path) -> None:
+    body = f'<executable cmd="node"><env name="PATH" value="{node.parent}"/></executable>'
+    assert launch(body).processes[0].command == (str(node),)
+    with pytest.raises(LaunchError, match="executable 'sh' not found on the PATH"):
+        launch(body.replace("node", "sh", 1))
+
+
 @pytest.mark.parametrize(
     ("body", "words"),
     [
