@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 # More side by side gain little: the longest files of tests are the whole system's, on processes of their own.
 MAX_PROCESSES = 4
+LINTERS = ("ruff", "mypy", "clang-format")
 CXX_PATTERNS = ("*.cpp", "*.hpp", "*.h", "*.ino")
 # Errors here and not in the build: a warning that only a newer compiler knows must not keep anybody from building.
 CXX_WARNINGS = ["-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
@@ -131,19 +132,23 @@ def main() -> int:
     parser.add_argument("--format", action="store_true", help="format the sources and stop")
     parser.add_argument("pytest", nargs="*", help="arguments for pytest, after --")
     arguments = parser.parse_args()
-    if arguments.format:
-        return ended(reformat())
-    if arguments.quick:
-        return ended(run("ruff: rules", ["ruff", "check", "."]) + test(["-m", "not slow", *arguments.pytest]))
-    missing = [tool for tool in ("ruff", "mypy", "clang-format") if shutil.which(tool) is None]
+    needed = ("ruff",) if arguments.quick else ("ruff", "clang-format") if arguments.format else LINTERS
+    missing = [tool for tool in needed if shutil.which(tool) is None]
     if missing:
         # A sourced ROS installation need not have them; the bare machine's set-up always does.
         print(f"[check] linters left out, not installed: {', '.join(missing)} (pip install {' '.join(missing)})")
-        failures = ["linters: not installed"] if arguments.lint else []
+        failures = ["linters: not installed"] if arguments.lint or arguments.format else []
+    elif arguments.format:
+        failures = reformat()
+    elif arguments.quick:
+        failures = run("ruff: rules", ["ruff", "check", "."])
     else:
         failures = lint({} if arguments.lint else WARM_UP)
-    if not arguments.lint:
-        failures += test(arguments.pytest)  # also when a linter complained, so that one run shows all there is
+    if not arguments.lint and not arguments.format:
+        chosen = ["-m", "not slow"] if arguments.quick else []
+        failures += test(
+            [*chosen, *arguments.pytest]
+        )  # also when a linter complained, so that one run shows all there is
     return ended(failures)
 
 
