@@ -112,6 +112,10 @@ class ServiceLaunch(Launched):
     def _on_exit(self, event: Any, _context: LaunchContext) -> None:
         with self._lock:
             self._alive.discard(event.pid)
+            # Its last lines, where they do not end; its output has been read before.
+            for from_stdout in (True, False):
+                rest = self._parts.pop((event.pid, from_stdout), "")
+                self._text += [f"[{event.process_name}] {rest}\n"] if rest else []
             self._text.append(f"[{event.process_name}]: process ended with exit code {event.returncode}\n")
             if event.returncode not in (_STOPPED_CODES if self._stopping else (0,)):
                 self._failed.add(id(event.action))
