@@ -15,7 +15,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
     python_requires=">=3.10",
-    install_requires=["acts_core", "numba", "numpy", "scipy"],
+    install_requires=["acts_core", "numpy", "scipy"],
     extras_require={"test": ["pytest"]},
     zip_safe=False,
     description="Tactile images from few samples, and contacts, slip, impacts, outlines, spectra, gait and objects.",

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Compare what the packages import with what their package.xml declare; part of `make lint`.
+"""Compare what the packages import and whose files they take with what their package.xml declare; part of `make lint`.
 
 An undeclared dependency is noticed only on a machine that happens to lack it.
 """
@@ -34,12 +34,17 @@ KEYS = {
 WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "pyarrow", "rosbags", "rtde_control", "rtde_receive"}
 WITHOUT_KEY |= {"backports", "compression", "lz4"}  # rosbags brings them
 WITHOUT_KEY |= {"websockets"}
+# What finds the files that a package installs.
+SHARES = ("get_package_share_directory", "packages.share")
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 
 
 def imported(folder: Path) -> set[str]:
-    """Names of the modules that are imported anywhere in a folder, without those of Python and of the folder itself."""
+    """Names of the modules that are imported and of the packages whose installed files are taken.
+
+    Anywhere in a folder, without those of Python and of the folder itself.
+    """
     files = sorted(folder.rglob("*.py"))
     names = {name.split(".")[0] for file in files for name in _names(ast.parse(file.read_bytes()))}
     return names - sys.stdlib_module_names - {file.stem for file in files} - WITHOUT_KEY
@@ -51,6 +56,8 @@ def _names(tree: ast.Module) -> Iterator[str]:
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
             yield node.module
+        elif isinstance(node, ast.Call) and ast.unparse(node.func) in SHARES:
+            yield from (str(argument.value) for argument in node.args[:1] if isinstance(argument, ast.Constant))
 
 
 def complaints(manifest: Path) -> list[str]:
@@ -73,6 +80,8 @@ def complaints(manifest: Path) -> list[str]:
     twice += [key for tag, key in declared if tag == "test_depend" and key in known["use"]]
     found += [f"names {key} twice" for key in sorted(set(twice))]
     unused = known["test"] & set(KEYS.values()) - for_use - for_tests
+    if source.is_dir():
+        unused |= known["use"] & set(KEYS.values()) - for_use
     return found + [f"names {key}, which nothing imports" for key in sorted(unused)]
 
 
