@@ -79,9 +79,9 @@ def _measure_all(run: Run) -> Any:
             frame = model.counts(model.forces_n(object_named(name), moved))
             held = [Recording(np.repeat(frame[None], 21, axis=0), _HELD_HZ, live)]
             title = f"{name}, place {place}"
-            found[f"{name} {place}"] = presses.over_m(
-                run, title, held, [("paper", scheme), ("acts", "tracking")], learnt, ms=_M, rate_hz=presses.TENTH_HZ
-            )
+            alone = presses.over_m(run, title, held, [("paper", scheme)], learnt, ms=_M, rate_hz=presses.TENTH_HZ)
+            ours = presses.over_m(run, f"{title}, ours", held, [("acts", "tracking")], learnt, ms=_M)
+            found[f"{name} {place}"] = {"m": alone["m"], "support": {**alone["support"], **ours["support"]}}
     return found
 
 

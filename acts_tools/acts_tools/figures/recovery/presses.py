@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
 from acts_recon.learning import KsvdConfig, learn_dictionary
 from acts_recon.methods import Method, SkinSetup
@@ -33,8 +34,13 @@ SCHEMES = tuple(PUBLISHED_SCHEMES)
 
 M = (42, 56, 64, 88, 128, 176, 256, 352, 512)
 M_FAST = (64, 256)
+FULL_HZ = 1000.0
+"""Largest frame rate of a board."""
+
 TENTH_HZ = 100.0
 """Frame rate where methods of single frames are compared: a tenth of the frames has the same mean."""
+
+_OF_SINGLE_FRAMES = ("paper", "dct", "haar", "linear")
 
 HELD_S = 0.046
 """Time since a touch began, for our images of several frames."""
@@ -55,9 +61,20 @@ def presses(run: Run, items: Sequence[ContactObject]) -> list[Recording]:
 
 
 def task(
-    run: Run, method: str, scheme: str, m: int, *, rate_hz: float = 1000.0, sparsity_ratio: float | None = None
+    run: Run, method: str, scheme: str, m: int, *, rate_hz: float = FULL_HZ, sparsity_ratio: float | None = None
 ) -> Task:
-    """A method with a scheme and M taxels, scored over whole presses."""
+    """A method with a scheme and M taxels, scored over whole presses.
+
+    Raises
+    ------
+    SettingsError
+        When a method that remembers earlier frames is to have fewer of them than a board sends.
+    """
+    if rate_hz < FULL_HZ and method not in _OF_SINGLE_FRAMES:
+        raise SettingsError(
+            f"{method} at {rate_hz:g} frames/s: it remembers earlier frames, so it is scored at {FULL_HZ:g}; fewer are "
+            f"for {', '.join(_OF_SINGLE_FRAMES)}"
+        )
     threshold = FOLLOW_COUNTS if scheme == "tracking" else PAPER_TOUCH_COUNTS
     sampling = SamplingConfig(scheme=scheme, m=m, threshold_counts=threshold, seed=run.seed)
     return Task(
@@ -88,7 +105,7 @@ def over_m(
     dictionary: Dictionary,
     *,
     ms: Sequence[int] | None = None,
-    rate_hz: float = 1000.0,
+    rate_hz: float = FULL_HZ,
 ) -> dict[str, Any]:
     """Support accuracy of methods with schemes over M.
 
@@ -96,6 +113,11 @@ def over_m(
     -------
     dict
         `m`, and `support`: by "method, scheme" a list of one number for each M.
+
+    Raises
+    ------
+    SettingsError
+        As `task`.
     """
     ms = run.pick(M if ms is None else ms, M_FAST)
     found: dict[str, list[float]] = {}

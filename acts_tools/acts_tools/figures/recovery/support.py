@@ -34,7 +34,7 @@ def _measure_support(run: Run) -> list[Panel]:
     def measure() -> Any:
         pairs = [(method, scheme) for method in ("paper", "linear") for scheme in SCHEMES]
         recordings = presses.presses(run, presses.objects(run))
-        rate_hz = run.pick(1000.0, presses.TENTH_HZ)
+        rate_hz = run.pick(presses.FULL_HZ, presses.TENTH_HZ)
         return presses.over_m(run, "support over M", recordings, pairs, presses.shipped(), rate_hz=rate_hz)
 
     found = run.shared("support", measure)
@@ -84,12 +84,13 @@ def _measure_sizes(run: Run) -> list[Panel]:
         for m in _M_OF_SIZES:
             curves = []
             for method, scheme in pairs:
+                ours = method == "acts"
+                rate_hz = presses.FULL_HZ if ours else presses.TENTH_HZ
+                its = presses.task(run, method, scheme, m, rate_hz=rate_hz)
                 values = []
                 for number in order:
-                    its = presses.task(run, method, scheme, m, rate_hz=presses.TENTH_HZ)
                     values.append(presses.support([recordings[number]], its, dictionary))
                     progress.show(done := done + 1)
-                ours = method == "acts"
                 label = "ours, tracking" if ours else scheme
                 x = [sizes[number] for number in order]
                 curves.append(Curve(label, x, values, OURS if ours else SAME, scheme, points=True))
