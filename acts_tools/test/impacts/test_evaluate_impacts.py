@@ -11,7 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from acts_recon.impacts import Impact, Kind
+from acts_sim.impacts import Scene
 from acts_tools.cli import main
+from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.impacts.impacts_command import TOUCH_MS, drops_of, seen_by_us
 
 
 def test_bounces_are_told_and_seen_as_often_as_by_the_papers_method(tmp_path: Path) -> None:
@@ -29,6 +33,31 @@ def test_bounces_are_told_and_seen_as_often_as_by_the_papers_method(tmp_path: Pa
         assert ours["told_as_bounce"] == 2
         assert ours["onset_error_ms"]["mean"] < 0.7
         assert ours["impulse_share"]["mean"] == pytest.approx(1.1, abs=0.3)
+
+
+def test_of_several_touches_that_are_told_the_strongest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    (shown,) = drops_of(1, 1, TOUCH_MS)
+    truth = shown.collisions[0]
+    begin_s, largest_n = float(truth.time_s[0]), float(truth.force_n.max())
+
+    def touch(number: int, after_s: float, peak_n: float, *, is_over: bool) -> tuple[float, Impact]:
+        onset_s, frames = begin_s + after_s, 3 + number
+        force_n = np.array([peak_n / 2, peak_n])
+        told = Impact(number, is_over, Kind.IMPACT, onset_s, 1e-3, 0.008, frames, 0, 0, peak_n, 0, True, force_n=force_n)
+        return onset_s + 0.001, told
+
+    def play(_ours: plays.Ours, _scene: Scene, _seed: int) -> list[tuple[float, Impact]]:
+        # One that did not happen begins first and is over first; the true one is number 2, and a third never ends.
+        begun = [touch(number, after_s, 0.1, is_over=False) for number, after_s in ((1, -0.01), (2, 0.0), (3, 0.002))]
+        return [*begun, touch(1, -0.01, 0.1, is_over=True), touch(2, 0.0, largest_n, is_over=True)]
+
+    monkeypatch.setattr(plays.Ours, "play", play)
+    entry = seen_by_us([shown], "adaptive", 64, 3.0)
+    assert (entry["told"], entry["told_further"], entry["told_as_bounce"]) == (1, 2, 1)
+    assert (entry["frames"], entry["onset_within_1_sigma"]) == (5, 1)
+    assert entry["onset_error_ms"]["mean"] == pytest.approx(0, abs=1e-6)
+    assert entry["delay_ms"]["mean"] == pytest.approx(1)
+    assert entry["peak_share"]["mean"] == pytest.approx(1)
 
 
 def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) -> None:

@@ -116,29 +116,29 @@ def seen_by_paper(scenes: Sequence[Scene], m: int, noise_counts: float) -> dict[
 
 
 def seen_by_us(scenes: Sequence[Scene], scheme: str, m: int, noise_counts: float) -> dict[str, Any]:
-    """An entry of the report: ours with a scheme."""
+    """An entry of the report: ours with a scheme. Of several touches of a drop, that with the largest peak counts."""
     ours = plays.Ours(scheme, m, noise_counts)
     frames, changes, begun, further, bounced = [], [], 0, 0, 0
     delays_ms, onsets_ms, within, durations_ms, peaks_share, impulses_share = [], [], [], [], [], []
     for seed, shown in enumerate(scenes, start=1):
         told = ours.play(shown, seed)
-        first = [(at_s, impact) for at_s, impact in told if not impact.is_over]
-        over = [impact for _, impact in told if impact.is_over]
-        begun += bool(first)
-        further += max(len(first) - 1, 0)
-        frames.append(over[0].frames if over else 0)
-        if not over:
+        begun += any(not impact.is_over for _, impact in told)
+        # One touch of each drop counts; all others did not happen.
+        further += max(len({impact.number for _, impact in told}) - 1, 0)
+        over = plays.strongest_over(told)
+        frames.append(over.frames if over else 0)
+        if over is None:
             continue
-        changes.append(_change(over[0].force_n))
+        changes.append(_change(over.force_n))
         truth = shown.collisions[0]
         begin_s = float(truth.time_s[0])
-        bounced += over[0].kind is Kind.IMPACT and over[0].bounced
-        delays_ms.append(1e3 * (first[0][0] - begin_s))
-        onsets_ms.append(1e3 * abs(over[0].onset_s - begin_s))
-        within.append(abs(over[0].onset_s - begin_s) <= over[0].onset_sd_s)
-        durations_ms.append(1e3 * abs(over[0].duration_s - truth.duration_s))
-        peaks_share.append(over[0].peak_n / float(truth.force_n.max()))
-        impulses_share.append(over[0].impulse_n_s / truth.impulse_n_s)
+        bounced += over.kind is Kind.IMPACT and over.bounced
+        delays_ms.append(1e3 * (min(at_s for at_s, impact in told if impact.number == over.number) - begin_s))
+        onsets_ms.append(1e3 * abs(over.onset_s - begin_s))
+        within.append(abs(over.onset_s - begin_s) <= over.onset_sd_s)
+        durations_ms.append(1e3 * abs(over.duration_s - truth.duration_s))
+        peaks_share.append(over.peak_n / float(truth.force_n.max()))
+        impulses_share.append(over.impulse_n_s / truth.impulse_n_s)
     return {
         **_common("acts", scheme, m, frames, changes),
         "told": begun,

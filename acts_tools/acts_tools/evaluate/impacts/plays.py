@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from acts_recon.fusion import known_noise
 from acts_recon.impacts import Impact
@@ -19,6 +19,17 @@ def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Ite
     """Frames as in the paper: adaptive sampling, and a raster of the whole array."""
     scheme = "raster" if m >= scene.frames[0].size else "adaptive"
     return frames_of(scene.frames, SCENE_RATE_HZ, scheme, m, PAPER_TOUCH_COUNTS, noise_counts, seed)
+
+
+def strongest_over(told: Sequence[tuple[float, Impact]]) -> Impact | None:
+    """The touch with the largest peak of those that are over, chosen without the truth; None where none is.
+
+    Parameters
+    ----------
+    told : sequence of (float, Impact)
+        What `Ours.play` returns.
+    """
+    return max((impact for _, impact in told if impact.is_over), key=lambda impact: impact.peak_n, default=None)
 
 
 class Ours:

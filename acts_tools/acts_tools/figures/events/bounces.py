@@ -99,10 +99,10 @@ def _measure_over_time(run: Run) -> list[Panel]:
                 "adaptive",
             ),
         ]
-        over = [impact for _, impact in plays.Ours("adaptive", m, _NOISE_COUNTS).play(shown, 1) if impact.is_over]
-        if over:
-            x = (1e3 * (over[0].time_s - begin_s)).tolist()
-            curves.append(Curve("ours, force", x, (over[0].force_n / largest_n).tolist(), OURS, "tracking"))
+        over = plays.strongest_over(plays.Ours("adaptive", m, _NOISE_COUNTS).play(shown, 1))
+        if over is not None:
+            x = (1e3 * (over.time_s - begin_s)).tolist()
+            curves.append(Curve("ours, force", x, (over.force_n / largest_n).tolist(), OURS, "tracking"))
         panels.append(Panel(f"M = {m}", "time since first touch [ms]", "share of the largest", curves))
     return panels
 

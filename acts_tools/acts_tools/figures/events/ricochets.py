@@ -64,14 +64,14 @@ def _measure_paths(run: Run) -> list[Panel]:
 def _path(shown: Scene, angle_deg: int) -> Panel:
     truth = shown.collisions[0]
     path = PaperDirections(_M, _NOISE_COUNTS).path_m(shown, 1)
-    over = [one for _, one in plays.Ours(SCHEME, _M, _NOISE_COUNTS).play(shown, 1) if one.is_over]
+    over = plays.strongest_over(plays.Ours(SCHEME, _M, _NOISE_COUNTS).play(shown, 1))
     every = max(len(truth.x_m) // 50, 1)
     curves = [
         Curve("truth", _mm(truth.x_m[::every]), _mm(truth.y_m[::every]), TRUTH, "truth"),
         Curve("paper's method", _mm([x for x, _ in path]), _mm([y for _, y in path]), SAME, "adaptive"),
     ]
-    if over:
-        curves.append(Curve("ours", _mm(over[0].path_x_m), _mm(over[0].path_y_m), OURS, "tracking"))
+    if over is not None:
+        curves.append(Curve("ours", _mm(over.path_x_m), _mm(over.path_y_m), OURS, "tracking"))
     return Panel(f"centre of pressure, {angle_deg} degrees", "x [mm]", "y [mm]", curves, equal=True)
 
 
