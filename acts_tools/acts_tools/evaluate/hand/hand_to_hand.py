@@ -27,7 +27,7 @@ def run(one: Run) -> Outcome:
     world = HandWorldConfig(seed=one.seed, pose="thumb_up", object="other_hand", object_held=True)
     reflexes = ("slip", "hand_to_hand") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes, grip_force_n=0.3))
-    outcome = Outcome()
+    outcome = Outcome(kept=False)
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"
         return outcome

@@ -49,7 +49,7 @@ def _poke(one: Run, radius_m: float) -> Outcome:
     )
     reflexes = ("sharp", "slip") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes))
-    outcome = Outcome(details={"radius_mm": 1e3 * radius_m})
+    outcome = Outcome(kept=False, details={"radius_mm": 1e3 * radius_m})
     if not rig.grasp():
         outcome.details["failed"] = "not grasped"
         return outcome

@@ -63,7 +63,7 @@ class Outcome:
     stopped_ms : float or None
         Time from then until the object stopped, or the joints began to open.
     kept : bool or None
-        Whether the object is still in the hand, or the other contacts persist.
+        Whether the object is still in the hand, or the other contacts persist; False where nothing was grasped.
     penetration_mm : float or None
         Largest depth of the tip in the skin.
     offset_mm : float or None

@@ -53,7 +53,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
     )
     reflexes = ("slip", "sphere", "trap") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes, grasp_posture=_POSTURES[name], grip_force_n=0.3))
-    outcome = Outcome(details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
+    outcome = Outcome(kept=False, details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
     rig.run(0.02)
     rig.supervisor.grasp()
     # Later, the thumb has closed too far.
@@ -67,10 +67,11 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
         outcome.details["failed"] = "not grasped"
         return outcome
     rig.run(_BALANCED_S)
-    outcome.offset_mm = _distance_mm(rig, palm)
     if name == "small_sphere":
+        outcome.details["before_pull_mm"] = _distance_mm(rig, palm)
         rig.world.disturbances.pull(-_PULL_WEIGHTS * rig.world.weight_n * rig.world.down, _PULL_RAMP_S)
         rig.run(_PULLED_S)
+    outcome.offset_mm = _distance_mm(rig, palm)
     tips = [r.name for r in rig.regions if r.in_contact and LEAP_RIGHT.regions[r.name].role == "distal"]
     touching = [r.name for r in rig.regions if r.in_contact]
     outcome.kept = not rig.world.truth.object_lost and len(touching) >= 2
