@@ -15,10 +15,11 @@ _LINES = 10
 """Largest number of lines without a terminal."""
 
 
-def tell(line: str) -> None:
-    """Print a line on standard output, above the bars that a terminal shows."""
-    with tqdm.external_write_mode():
-        print(line, flush=True)
+def tell(line: str, stream: TextIO | None = None) -> None:
+    """Print a line on standard output or another stream, above the bars that a terminal shows."""
+    stream = sys.stdout if stream is None else stream
+    with tqdm.external_write_mode(stream):
+        print(line, file=stream, flush=True)
 
 
 class Progress:

@@ -6,10 +6,13 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from acts_core.errors import RecordingError
 from acts_tools.arguments import random_seed
 from acts_tools.evaluate import report
 from acts_tools.figures.differences import differences
@@ -25,6 +28,7 @@ from acts_tools.progress import Progress, tell
 
 _HEADER = ("panel", "curve", "by", "x", "y", "low", "high")
 _WITHOUT = f"The paper's curves are not drawn: give their folder as --paper-data or {VARIABLE} (docs/paper.md)."
+_MISSING = "The paper's curves are not drawn: they are not all in the given folder."
 
 
 def add_parser(subparsers: Any) -> None:
@@ -53,12 +57,12 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Draw the figures and return the exit code.
+    """Draw the figures and return the exit code: 1 where published curves of a figure are missing in the folder.
 
     Raises
     ------
     ActsError
-        When a name is unknown, a file cannot be written, or the published curves cannot be read.
+        When a name is unknown, a file cannot be written, or the tables of the published curves cannot be read.
     """
     figures = figures_named(arguments.name)
     published = published_data(arguments.paper_data)
@@ -67,11 +71,15 @@ def run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, one.settings)
     if published is None and any(figure.has_published for figure in figures):
         print(_WITHOUT)
+    code = 0
     with Progress("figures", len(figures)) as progress:
         for number, figure in enumerate(figures):
             progress.show(number, figure.name)
-            results.add(_make(figure, one, published))
-    return 0
+            entry = _make(figure, one, published)
+            results.add(entry)
+            if published is not None and figure.has_published and not entry["published"]:
+                code = 1
+    return code
 
 
 def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str, Any]:
@@ -81,33 +89,48 @@ def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str
     began_s = time.monotonic()
     panels = figure.measure(one) if known is None else _measured(known)
     spent_s = time.monotonic() - began_s
-    whole = panels if published is None else figure.with_published(published, panels)
-    command = one.command(figure.name)
-    compared = differences(whole)
-    entry = {
-        "figure": figure.name,
-        "title": figure.title,
-        "command": command,
-        **one.settings,
-        "notes": figure.notes_of(one),
-        "published": published is not None and figure.has_published,
-        "differences": compared,
-        "panels": to_json(whole),
-    }
+    entry = _entry(figure, one, panels, published=False)
+    # At once: whatever is wrong with what was published or with the drawing, this is not measured again.
     write_stamped(path, entry)
-    write_csv(path.with_suffix(".csv"), command, _HEADER, rows(whole))
-    if images := large_images(whole):
+    notes = figure.notes_of(one)
+    if figure.has_published and published is None:
+        notes.append(_WITHOUT)
+    elif figure.has_published and published is not None:
+        try:
+            panels = figure.with_published(published, panels)
+        except RecordingError as error:
+            tell(f"error: figure {figure.name} is drawn without the paper's curves: {error}", sys.stderr)
+            notes.append(_MISSING)
+        else:
+            entry = _entry(figure, one, panels, published=True)
+            write_stamped(path, entry)
+    command = one.command(figure.name)
+    write_csv(path.with_suffix(".csv"), command, _HEADER, rows(panels))
+    if images := large_images(panels):
         write_images(path.with_suffix(".npz"), command, images)
-    notes = [*figure.notes_of(one), *([_WITHOUT] if published is None and figure.has_published else [])]
-    draw(path.with_suffix(".png"), figure, whole, command, notes)
+    draw(path.with_suffix(".png"), figure, panels, command, notes)
     how = "as measured before" if known is not None else f"measured in {spent_s:.1f} s"
     tell(f"{figure.name:5} {path.with_suffix('.png')}, {how}")
-    for line in compared:
+    for line in entry["differences"]:
         tell(
             f"      {line['panel']}: {line['curve']} differs from {line['published']} by {line['mean_absolute']:.3g} "
             f"({100 * line['mean_relative']:.1f} %) in the mean, {line['mean']:+.3g} with sign"
         )
     return entry
+
+
+def _entry(figure: Figure, one: Run, panels: Sequence[Panel], *, published: bool) -> dict[str, Any]:
+    """What the JSON file of a figure contains."""
+    return {
+        "figure": figure.name,
+        "title": figure.title,
+        "command": one.command(figure.name),
+        **one.settings,
+        "notes": figure.notes_of(one),
+        "published": published,
+        "differences": differences(panels),
+        "panels": to_json(panels),
+    }
 
 
 def _measured(known: dict[str, Any]) -> list[Panel]:

@@ -17,6 +17,7 @@ import pytest
 from acts_core.errors import SettingsError
 from acts_tools.cli import main
 from acts_tools.figures.differences import differences
+from acts_tools.figures.figure import Figure
 from acts_tools.figures.files import write_stamped
 from acts_tools.figures.registry import FIGURES, figures_named
 from acts_tools.figures.run import Run
@@ -196,6 +197,44 @@ def test_a_published_curve_without_points_is_refused_by_name(
     (tmp_path / "curves.csv").write_text("curve_id,x,y\n2,0,0\n")
     assert main(["figures", "S9", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]) == 1
     assert "curves.csv: no points of curve 1, '' of figS_forceResponse/forceR.fig" in capsys.readouterr().err
+
+
+def test_a_gap_in_what_was_published_costs_neither_the_measurement_nor_the_other_figures(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "curves_index.csv").write_text("curve_id,figure,axes,label\n1,a,0,x\n")
+    (tmp_path / "curves.csv").write_text("curve_id,x,y\n1,0,0\n")
+    out = tmp_path / "out"
+    words = ["figures", "S9", "9C", "4D", "--fast", "--out", str(out)]
+    assert main([*words, "--paper-data", str(tmp_path)]) == 1
+    told = capsys.readouterr()
+    assert [line.split()[0] for line in told.out.splitlines()] == ["S9", "9C", "4D"]
+    for name, missing in (("S9", "curves_index.csv: no curve ''"), ("9C", "fig8_heatmap.npz")):
+        (line,) = [line for line in told.err.splitlines() if f"figure {name} is" in line]
+        assert "drawn without the paper's curves" in line
+        assert missing in line
+        made = out / FIGURES[name].file_name
+        assert made.with_suffix(".png").exists()
+        assert json.loads(made.with_suffix(".json").read_text())["published"] is False
+    assert main(words) == 0
+    assert capsys.readouterr().out.count("as measured before") == 3
+
+
+def test_a_measurement_is_written_before_what_was_published_is_looked_at(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "curves_index.csv").write_text("curve_id,figure,axes,label\n")
+    (tmp_path / "curves.csv").write_text("curve_id,x,y\n")
+
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError
+
+    words = ["figures", "S9", "--out", str(tmp_path)]
+    with monkeypatch.context() as patch, pytest.raises(ZeroDivisionError):
+        patch.setattr(Figure, "with_published", fail)
+        main([*words, "--paper-data", str(tmp_path)])
+    assert main(words) == 0
+    assert "as measured before" in capsys.readouterr().out
 
 
 def test_the_tones_of_the_papers_method_are_drawn_wherever_they_are(tmp_path: Path) -> None:
