@@ -38,7 +38,7 @@ def add_parser(subparsers: Any) -> None:
         help="draw the paper's figures beside ours",
         description="Draw figures of the paper, each with the paper's curves where it has some, the paper's method on "
         "our simulated skin, and our method. Beside each picture are its numbers, as JSON and CSV. A figure that was "
-        "measured with the same version, seed and size is not measured again. docs/paper.md discusses every figure.",
+        "measured with the same code, seed and size is not measured again. docs/paper.md discusses every figure.",
     )
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
     parser.add_argument("--out", type=Path, default=Path("figures"), metavar="DIR", help="default: %(default)s")

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from acts_tools import __version__
+from acts_tools.figures.digest import code_digest
 from acts_tools.figures.files import read_stamped, write_stamped
 from acts_tools.progress import Progress
 
@@ -51,7 +52,7 @@ class Run:
     @property
     def settings(self) -> dict[str, Any]:
         """What all numbers depend on."""
-        return {"version": __version__, "seed": self.seed, "fast": self.fast}
+        return {"version": __version__, "code": code_digest(), "seed": self.seed, "fast": self.fast}
 
     def command(self, name: str) -> str:
         """The command that makes a figure again."""

@@ -20,7 +20,7 @@ from acts_core.sampling import Sampler, SamplingConfig, SkinMap
 from acts_core.wire import BoardSettings
 from acts_tools.firmware.library import library_path
 
-_LIBRARY = "libacts_sampler.so"
+LIBRARY = "libacts_sampler.so"
 
 
 @lru_cache(maxsize=4)
@@ -68,7 +68,7 @@ class BoardSampler:
         skin_map: SkinMap | None = None,
     ) -> None:
         self.config = config
-        self._library = _library(library or library_path(_LIBRARY))
+        self._library = _library(library or library_path(LIBRARY))
         taxels = config.rows * config.cols
         self._indices = np.zeros(taxels, dtype=np.uint16)
         self._counts = np.zeros(taxels, dtype=np.uint16)
@@ -160,13 +160,13 @@ def sampler_of(
 
 def scheme_table(library: Path | None = None) -> str:
     """Table of the firmware's schemes; see `acts_sampler_schemes` in acts_firmware/host."""
-    table: bytes = _library(library or library_path(_LIBRARY)).acts_sampler_schemes()
+    table: bytes = _library(library or library_path(LIBRARY)).acts_sampler_schemes()
     return table.decode()
 
 
 def firmware_takes(scheme: int, rows: int, cols: int, m: int) -> bool:
     """Whether the firmware supports a scheme, by its number, with `m` taxels per frame."""
-    return bool(_library(library_path(_LIBRARY)).acts_sampler_takes(scheme, rows, cols, m))
+    return bool(_library(library_path(LIBRARY)).acts_sampler_takes(scheme, rows, cols, m))
 
 
 def _check_frames(config: SamplingConfig, frames: NDArray[np.uint16]) -> None:

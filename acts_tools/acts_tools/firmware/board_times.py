@@ -12,12 +12,12 @@ from acts_core.sampling import SCHEMES, SamplingConfig
 from acts_core.wire import OUTPUTS, BoardSettings
 from acts_tools.firmware.library import library_path
 
-_LIBRARY = "libacts_board_times.so"
+LIBRARY = "libacts_board_times.so"
 
 
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL:
-    library = ctypes.CDLL(str(library_path(_LIBRARY)))
+    library = ctypes.CDLL(str(library_path(LIBRARY)))
     library.acts_board_sampling_us.restype = ctypes.c_double
     library.acts_board_sampling_us.argtypes = [ctypes.c_char_p, ctypes.c_size_t]
     library.acts_board_output_us.restype = ctypes.c_double
