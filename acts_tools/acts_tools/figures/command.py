@@ -46,7 +46,11 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
     )
-    parser.add_argument("--again", action="store_true", help="measure again what was measured before")
+    parser.add_argument(
+        "--again",
+        action="store_true",
+        help="measure again what was measured before; after Ctrl-C, continue without it",
+    )
     parser.add_argument(
         "--paper-data",
         type=Path,

@@ -139,6 +139,12 @@ def test_lines_of_two_points_are_compared_at_both_ends_of_what_they_share() -> N
     assert found["largest_relative"] == pytest.approx(0.5 / 0.7)
 
 
+def test_how_to_continue_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["figures", "--help"])
+    assert "after Ctrl-C, continue without it" in " ".join(capsys.readouterr().out.split())
+
+
 def test_figures_of_one_number_have_a_name_together() -> None:
     words = {"6A-C": ["6A", "6B", "6C"], "5f-g": ["5F", "5G"], "8B-G": ["8B-G"], "S7-1": ["S7-1"]}
     assert {word: [figure.name for figure in figures_named([word])] for word in words} == words
