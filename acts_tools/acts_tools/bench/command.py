@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "bench",
         help="measure throughput, CPU and latency",
-        description="Measure the performance of the sensing on this machine; all hardware is simulated.",
+        description="Measure the performance of the sensing on this machine; all hardware is simulated. The report is "
+        "written after each measurement, so Ctrl-C keeps those that are finished.",
         epilog="measurements:\n"
         + "".join(
             f"  {name:<14} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
@@ -43,7 +45,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Measure, write and print; return 1 if something failed, but 0 if it was only slow."""
+    """Measure, write and print; return 1 if something failed or could not be measured, but 0 if it was only slow."""
     from acts_tools.bench import report as reports
     from acts_tools.bench.skins import options as skins
     from acts_tools.bench.skins import table as skins_table
@@ -79,9 +81,8 @@ def _measure(arguments: argparse.Namespace) -> dict[str, Any]:
     path = _file(arguments, "bench.json")
     use_free_domain()
     with StopFlag() as stop:
-        report = runner.run(names, arguments.seconds, stop)
-    write_json(path, report)
-    return report
+        # After each measurement, so that Ctrl-C keeps those that are finished.
+        return runner.run(names, arguments.seconds, stop, partial(write_json, path))
 
 
 def _file(arguments: argparse.Namespace, name: str) -> Path:

@@ -40,6 +40,7 @@ def markdown(report: Report) -> str:
             lines.append(f"| {label} | {text} |")
     lines += ["", conditions(report)]
     lines += ["", *(f"Warning: {warning}." for warning in report["warnings"])] if report["warnings"] else []
+    lines += ["", *(f"Problem: {problem}." for problem in report["problems"])] if report["problems"] else []
     return "\n".join(lines)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from datetime import datetime, timezone
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import Any
 from acts_core.errors import ActsError
 from acts_tools.bench import machine
 from acts_tools.bench.registry import MEASUREMENTS, Entry
+from acts_tools.bench.result import Result
 from acts_tools.bench.workbench import Workbench
 from acts_tools.run_folder import run_folder
 from acts_tools.running.stopping import StopFlag
@@ -45,8 +46,12 @@ def choose(names: Sequence[str], entries: Mapping[str, Entry] = MEASUREMENTS) ->
     return list(dict.fromkeys(names)) or [name for name, entry in entries.items() if not entry.only_by_name]
 
 
-def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str, Any]:
+def run(
+    names: Sequence[str], seconds: float | None, stop: StopFlag, write: Callable[[dict[str, Any]], None]
+) -> dict[str, Any]:
     """Measure, and print the current measurement on standard error.
+
+    A measurement that cannot be made is a problem in the report, and the next one follows.
 
     Parameters
     ----------
@@ -56,27 +61,27 @@ def run(names: Sequence[str], seconds: float | None, stop: StopFlag) -> dict[str
         Duration of each [s]; None for its default.
     stop : StopFlag
         When it is set, the run ends with KeyboardInterrupt.
+    write : callable
+        ``write(report)``: called after each measurement with the report of all so far.
 
     Returns
     -------
     dict
         The report, in the layout of ``out/bench.json``.
-
-    Raises
-    ------
-    ActsError
-        When a measurement cannot be made.
     """
     report: dict[str, Any] = {**begin_report(), "measurements": {}}
     for name in names:
         entry = MEASUREMENTS[name]
         print(f"[bench] {name}: {entry.summary}", file=sys.stderr, flush=True)
         report["measurements"][name] = _measure(entry, entry.seconds if seconds is None else seconds, stop)
-    report["load_average_after"] = load_average()
-    report["problems"] = [
-        f"{name}: {problem}" for name, measured in report["measurements"].items() for problem in measured["problems"]
-    ]
-    report["warnings"] = _warnings(report["measurements"])
+        report["load_average_after"] = load_average()
+        report["problems"] = [
+            f"{known}: {problem}"
+            for known, measured in report["measurements"].items()
+            for problem in measured["problems"]
+        ]
+        report["warnings"] = _warnings(report["measurements"])
+        write(report)
     return report
 
 
@@ -97,7 +102,10 @@ def load_average() -> list[float]:
 def _measure(entry: Entry, seconds: float, stop: StopFlag) -> dict[str, Any]:
     others = machine.OthersMeter()
     with run_folder("acts_bench_") as folder:
-        result = entry.load().measure(Workbench(seconds, Path(folder), stop))
+        try:
+            result = entry.load().measure(Workbench(seconds, Path(folder), stop))
+        except ActsError as error:
+            result = Result([], [str(error)])
     return {
         "summary": entry.summary,
         "seconds": seconds,

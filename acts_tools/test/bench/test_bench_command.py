@@ -15,7 +15,7 @@ import pytest
 from acts_core.errors import ActsError
 from acts_tools.bench import machine, report, runner
 from acts_tools.bench.registry import MEASUREMENTS, Entry
-from acts_tools.bench.result import Figure, shortened
+from acts_tools.bench.result import Figure, Result, shortened
 from acts_tools.cli import main
 
 pytestmark = pytest.mark.slow
@@ -131,3 +131,53 @@ def test_the_report_goes_to_the_file_that_is_asked_for(tmp_path: Path) -> None:
     assert main(["bench", "decode", *words]) == 0
     assert "decode" in json.loads(path.read_text())["measurements"]
     assert not (tmp_path / "out").exists()
+
+
+class _Measurement:
+    """Stands for the module of a measurement."""
+
+    def __init__(self, error: BaseException | None = None) -> None:
+        self._error = error
+
+    def load(self) -> _Measurement:
+        return self
+
+    def measure(self, _bench: object) -> Result:
+        if self._error is not None:
+            raise self._error
+        return Result([Figure("rate", "rate", 7, "Hz")])
+
+
+def _use(monkeypatch: pytest.MonkeyPatch, **errors: BaseException | None) -> None:
+    """Measurements by name, each with what it raises, in place of the real ones."""
+    for name, error in errors.items():
+        monkeypatch.setitem(MEASUREMENTS, name, Entry("none", name, 0.2))
+        monkeypatch.setattr(Entry, "load", lambda entry: _Measurement(errors[entry.summary]))
+
+
+def test_a_measurement_that_cannot_be_made_is_a_problem_and_the_others_are_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _use(monkeypatch, first=None, broken=ActsError("no browser"), last=None)
+    assert main(["bench", "first", "broken", "last", "--out", str(tmp_path)]) == 1
+    written = json.loads((tmp_path / "bench.json").read_text())
+    assert {name: len(one["figures"]) for name, one in written["measurements"].items()} == {
+        "first": 1,
+        "broken": 0,
+        "last": 1,
+    }
+    assert written["problems"] == ["broken: no browser"]
+    assert "problem: broken: no browser" in capsys.readouterr().out
+    assert main(["bench", "--show", str(tmp_path / "bench.json"), "--markdown"]) == 1
+    assert "Problem: broken: no browser" in capsys.readouterr().out
+
+
+def test_an_interruption_keeps_what_is_finished(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _use(monkeypatch, first=None, stopped=KeyboardInterrupt(), last=None)
+    assert main(["bench", "first", "stopped", "last", "--out", str(tmp_path)]) == 130
+    assert list(json.loads((tmp_path / "bench.json").read_text())["measurements"]) == ["first"]
+    capsys.readouterr()
+    assert main(["bench", "--show", str(tmp_path / "bench.json")]) == 0
+    assert "7 Hz" in capsys.readouterr().out
