@@ -20,6 +20,7 @@ from acts_sim.pressing import PressingArm, object_named
 from acts_tools import library
 from acts_tools.cli import Parser
 from acts_tools.evaluate import command
+from acts_tools.evaluate.classification import recorded, trials
 from acts_tools.evaluate.classification.contenders import ACTS, contenders
 from acts_tools.evaluate.classification.tables import draw
 from acts_tools.evaluate.classification.trials import Trials, accuracy, run_trials
@@ -91,9 +92,9 @@ def test_a_classifier_of_the_node_with_the_name_of_one_in_reports_is_refused(
 
 
 def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
-    trials = Trials(arms=1, presses=3, columns=3, objects=tuple(object_named(name) for name in SIX))
+    chosen = Trials(arms=1, presses=3, columns=3, objects=tuple(object_named(name) for name in SIX))
     shares: list[float] = []
-    results = run_trials(trials, (42,), (2, 5, 20), shares.append)
+    results = run_trials(chosen, (42,), (2, 5, 20), shares.append)
     assert shares == [number / len(SIX) for number in range(len(SIX))]
     paper, acts = ([cell["accuracy"] for cell in results["over_time"][method]] for method in ("paper", "acts"))
     assert all(ours > theirs for ours, theirs in zip(acts[:2], paper[:2], strict=True))
@@ -106,8 +107,8 @@ def test_ours_is_above_the_papers_method_on_the_same_presses() -> None:
 
 
 def test_the_same_presses_are_classified_the_same_again() -> None:
-    trials = Trials(arms=1, presses=1, columns=2, objects=tuple(object_named(name) for name in SIX[:3]))
-    first, again = (run_trials(trials, (42,), (2, 20)) for _ in range(2))
+    chosen = Trials(arms=1, presses=1, columns=2, objects=tuple(object_named(name) for name in SIX[:3]))
+    first, again = (run_trials(chosen, (42,), (2, 20)) for _ in range(2))
     assert all(again[part] == first[part] for part in ("over_m", "over_time"))
 
 
@@ -150,6 +151,39 @@ def test_an_m_that_is_named_twice_counts_once(tmp_path: Path) -> None:
     assert evaluate(*few, "--m", 64, 64, "--json", out) == 0
     (one,) = json.loads(out.read_text())["over_m"][ACTS]
     assert one["presses"] == 2
+
+
+@pytest.mark.parametrize("source", ["presses", "recordings"])
+def test_an_interrupted_run_keeps_what_is_finished(
+    source: str, grasps: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words: tuple[object, ...] = ("--frames", grasps, "--m", 55, 64)
+    if source == "presses":
+        words = ("--arms", 2, "--presses", 1, "--columns", 2, "--objects", *SIX[:2], "--m", 64)
+    module = trials if source == "presses" else recorded
+    out, contenders_of, made = tmp_path / "out.json", contenders, []
+
+    def interrupted(*args: Any, **options: Any) -> Any:
+        # Of the first arm there are two: over M, and over time.
+        if len(made) == (2 if source == "presses" else 1):
+            raise KeyboardInterrupt
+        made.append(args)
+        return contenders_of(*args, **options)
+
+    monkeypatch.setattr(module, "contenders", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        evaluate(*words, "--json", out)
+    (one,) = json.loads(out.read_text())["over_m"][ACTS]
+    assert (one["m"], one["presses"]) == ((64, 2) if source == "presses" else (55, 6))
+
+
+def test_every_m_is_checked_before_the_first_is_scored(tmp_path: Path) -> None:
+    frames = np.full((4, 8, 8), 300, dtype=np.uint16)
+    labels = {"start": [0, 1, 2, 3], "length": [1] * 4, "label": ["cup", "cup", "can", "can"]}
+    np.savez(tmp_path / "f.npz", frames=frames, rate_hz=31.0, **labels)
+    with pytest.raises(SettingsError, match=r"m.*65.*66"):
+        evaluate("--frames", tmp_path / "f.npz", "--m", 55, 65, 66, "--json", tmp_path / "out.json")
+    assert not (tmp_path / "out.json").exists()
 
 
 def test_of_one_object_every_answer_would_be_right(tmp_path: Path) -> None:

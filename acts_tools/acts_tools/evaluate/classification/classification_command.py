@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,11 @@ from acts_core.files import load_frames
 from acts_core.words import counted
 from acts_sim.pressing import OBJECTS, PressingConfig, object_named
 from acts_tools.arguments import add_settings, at_least_one, refuse_unused, taxels
+from acts_tools.evaluate.classification.contenders import SCHEMES
 from acts_tools.evaluate.classification.recorded import run_recorded
 from acts_tools.evaluate.classification.tables import draw, table, times
 from acts_tools.evaluate.classification.trials import M_OVER_TIME, MS, Trials, run_trials
+from acts_tools.evaluate.images.options import require_frames
 from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_picture, require_writable, write_json
@@ -65,6 +68,7 @@ def _run(arguments: argparse.Namespace) -> int:
     require_picture(arguments.picture)
     # What is named twice is one: its presses would count twice.
     ms = list(dict.fromkeys(arguments.m or ([55] if arguments.frames else MS)))
+    write = partial(write_json, arguments.json)
     if arguments.frames:
         if arguments.picture:
             raise SettingsError(f"--picture {arguments.picture}: shows simulated presses and does not go with --frames")
@@ -73,7 +77,7 @@ def _run(arguments: argparse.Namespace) -> int:
         recorded = load_frames(arguments.frames, labels=True)
         with Progress("recordings", 1) as progress:
             try:
-                results = run_recorded(recorded, ms, progress.show)
+                results = run_recorded(recorded, ms, progress.show, write)
             except RecordingError as error:
                 raise RecordingError(f"{arguments.frames}: {error}") from None
         print(
@@ -93,8 +97,9 @@ def _run(arguments: argparse.Namespace) -> int:
             pressing=PressingConfig(miss_taxels=arguments.miss_taxels, miss_deg=arguments.miss_deg),
             objects=tuple(object_named(name) for name in names),
         )
+        require_frames((scheme, m) for m in ms for scheme in SCHEMES)
         with Progress("presses", 1) as progress:
-            results = run_trials(trials, ms, show=progress.show)
+            results = run_trials(trials, ms, show=progress.show, write=write)
         print(table(results["over_m"], "m", "accuracy, held, at M ="))
         print()
         print(table(results["over_time"], "time_ms", f"accuracy at M = {M_OVER_TIME}, ms since contact"))
@@ -102,5 +107,4 @@ def _run(arguments: argparse.Namespace) -> int:
         print(times(results["frame_us"]))
         if arguments.picture:
             draw(arguments.picture, results, M_OVER_TIME)
-    write_json(arguments.json, results)
     return 0

@@ -18,6 +18,9 @@ from acts_recon.methods import Fusion, Recovery, SkinSetup
 from acts_recon.objects import ImageClassifierConfig, ObjectLibrary
 
 PAPER, ACTS = "paper", "acts"
+SCHEMES = ("adaptive", "tracking")
+"""Of the paper's method, and of all others."""
+
 TOUCH_COUNTS = 60
 """The paper's touch threshold: its library, samples and search ignore lower counts. Contact begins there."""
 

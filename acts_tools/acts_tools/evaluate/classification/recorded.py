@@ -15,19 +15,26 @@ from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_core.words import counted
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, contenders
+from acts_tools.evaluate.classification.contenders import SCHEMES, TOUCH_COUNTS, contenders
 from acts_tools.evaluate.classification.trials import accuracy, answers
+from acts_tools.evaluate.images.options import require_frames
 
 NEAREST = "nearest"
 _RUN_UP_S = 1.0
 """Time that is played before the classified frame [s]."""
 
 
-def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float], None]) -> dict[str, Any]:
+def run_recorded(
+    recorded: FramesFile,
+    ms: Sequence[int],
+    show: Callable[[float], None],
+    write: Callable[[dict[str, Any]], None] = lambda _: None,
+) -> dict[str, Any]:
     """Classify the strongest frame of every recording by the strongest frames of other recordings.
 
     The first half of each object's recordings, in the order of the file, is the library; the rest is classified.
-    Recordings without a touch in their strongest frame are skipped. `show` is called with the share that is done.
+    Recordings without a touch in their strongest frame are skipped. `show` is called with the share that is done,
+    `write` after each M with the results so far.
 
     Returns
     -------
@@ -38,6 +45,8 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float]
     ------
     RecordingError
         When there is no label or rate, only one label, or an object has fewer than two recordings.
+    SettingsError
+        It names each M that the array does not have.
     """
     if recorded.rate_hz is None or not recorded.label:
         missing = "no `rate_hz`" if recorded.rate_hz is None else "no `label`"
@@ -54,6 +63,7 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float]
             f"all recordings have the label {recorded.label[0]!r}: of one object every answer is right; needed are two "
             "or more"
         )
+    require_frames(((scheme, m) for m in ms for scheme in SCHEMES), recorded.frames.shape[1:])
     known, asked = _split(recorded, [count > TOUCH_COUNTS for count in largest])
     frames = np.stack([flat[peaks[number]] for number in known])
     labels = [recorded.label[number] for number in known]
@@ -63,6 +73,7 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float]
     over_m: dict[str, list[dict[str, Any]]] = defaultdict(list)
     cosines = np.stack([flat[peaks[number]].ravel() for number in asked]) @ fine.columns
     nearest = fine.classes[np.argmax(cosines, axis=1)]
+    results = {"over_m": over_m, "library": len(known), "presses": len(asked), "classes": coarse.n_classes}
     done = 0
     for m in ms:
         judged = contenders(coarse, fine, m)
@@ -80,7 +91,8 @@ def run_recorded(recorded: FramesFile, ms: Sequence[int], show: Callable[[float]
                 right += found[0] == wanted
             over_m[method].append({"m": m, **accuracy(right, len(asked))})
         over_m[NEAREST].append({"m": m, **accuracy(int((nearest == truth).sum()), len(asked))})
-    return {"over_m": over_m, "library": len(known), "presses": len(asked), "classes": coarse.n_classes}
+        write(results)
+    return results
 
 
 def _split(recorded: FramesFile, touched: Sequence[bool]) -> tuple[list[int], list[int]]:

@@ -160,8 +160,12 @@ def run_trials(
     ms: Sequence[int] = MS,
     times_ms: Sequence[float] = TIMES_MS,
     show: Callable[[float], None] = lambda _: None,
+    write: Callable[[dict[str, Any]], None] = lambda _: None,
 ) -> dict[str, Any]:
-    """Press, sample and classify; `show` is called with the share of the presses that is done.
+    """Press, sample and classify.
+
+    `show` is called with the share of the presses that is done, `write` after each arm with the results so far: all M
+    are judged on the same presses.
 
     Returns
     -------
@@ -174,6 +178,7 @@ def run_trials(
     over_time: dict[str, Score] = defaultdict(Score)
     times_s = [1e-3 * time_ms for time_ms in times_ms]
     after_s = 1e-3 * max(MIDDLE_MS, *times_ms) + 0.015
+    results: dict[str, Any] = {}
     for number in range(trials.arms):
         arm, coarse, fine = arm_of(trials, number)
         noise_counts = known_noise(trials.foam.noise_counts)
@@ -193,13 +198,15 @@ def run_trials(
                         over_m[method][m].rows.append([found[0] == wanted])
         for method, contender in timed.items():
             spent_us[method] += contender.spent_us
-    return {
-        "over_m": {
-            method: [score.summary([m], "m")[0] for m, score in scores.items()] for method, scores in over_m.items()
-        },
-        "over_time": {method: score.summary(times_ms, "time_ms") for method, score in over_time.items()},
-        "frame_us": {
-            method: percentiles(spent, ("median", "p99"), decimals=None) if spent else None
-            for method, spent in spent_us.items()
-        },
-    }
+        results = {
+            "over_m": {
+                method: [score.summary([m], "m")[0] for m, score in scores.items()] for method, scores in over_m.items()
+            },
+            "over_time": {method: score.summary(times_ms, "time_ms") for method, score in over_time.items()},
+            "frame_us": {
+                method: percentiles(spent, ("median", "p99"), decimals=None) if spent else None
+                for method, spent in spent_us.items()
+            },
+        }
+        write(results)
+    return results
