@@ -141,6 +141,9 @@ def test_a_picture_shows_every_m_and_accuracies_however_low(tmp_path: Path, monk
     left = drawn[0].axes[0]
     assert [label.get_text() for label in left.get_xticklabels()] == ["8", "64"]
     assert left.get_ylim()[0] < 0.3
+    # The published one is no answer at 20 ms, as ours are.
+    words = [text.get_text() for text in drawn[0].axes[1].get_legend().get_texts()]
+    assert "published, mean since contact (Fig. 4G)" in words
     monkeypatch.undo()
     pyplot.close(drawn[0])
 

@@ -65,7 +65,7 @@ def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
         left.set_xticks(shown, [str(m) for m in shown], fontsize=7)
         least = 0.6 if all(cell["accuracy"] >= 0.6 for cell in cells) else 0.0
         left.set(xlabel="taxels measured per frame, M", title="pressed and held", ylim=(least, 1.01))
-        right.plot([20], [PUBLISHED_AT_20_MS], "k*", label="published (Fig. 4G)")
+        right.plot([20], [PUBLISHED_AT_20_MS], "k*", label="published, mean since contact (Fig. 4G)")
         right.set(xlabel="time since contact [ms]", title=f"M = {m_over_time}")
         left.legend(fontsize=8, loc="lower right")
         right.legend(fontsize=8, loc="lower right")
