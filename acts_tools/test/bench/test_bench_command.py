@@ -150,7 +150,7 @@ class _Measurement:
 
 def _use(monkeypatch: pytest.MonkeyPatch, **errors: BaseException | None) -> None:
     """Measurements by name, each with what it raises, in place of the real ones."""
-    for name, error in errors.items():
+    for name in errors:
         monkeypatch.setitem(MEASUREMENTS, name, Entry("none", name, 0.2))
         monkeypatch.setattr(Entry, "load", lambda entry: _Measurement(errors[entry.summary]))
 

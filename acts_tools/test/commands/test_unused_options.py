@@ -30,6 +30,12 @@ pytestmark = pytest.mark.slow
         ("evaluate gait --frames x --rate 8 30", "--rate 8.0 30.0 has no effect on recorded insoles"),
         ("evaluate gait --width-m 0.1", "--width-m 0.1 has no effect without --frames"),
         ("evaluate recovery --presses 3 --peaks", "--peaks has no effect with --presses"),
+        (
+            "evaluate recovery --presses 3 --method acts last --set sparsity_ratio=0.1",
+            "--set sparsity_ratio=0.1 has no effect with --method acts, last; leave it out",
+        ),
+        ("evaluate events --method acts last --dictionary x", "--dictionary x has no effect with --method acts, last"),
+        ("evaluate events --method gp --patch-step 2", "--patch-step 2 has no effect with --method gp"),
         ("train -o {out} --frames x --presses 4", "--presses 4 has no effect with --frames"),
         ("library -o {out} --frames x --seed 4", "--seed 4 has no effect with --frames"),
         ("export x --to csv --task grasp", "--task grasp has no effect with --to csv"),

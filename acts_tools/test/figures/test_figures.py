@@ -236,9 +236,10 @@ def test_a_measurement_is_written_before_what_was_published_is_looked_at(
         raise ZeroDivisionError
 
     words = ["figures", "S9", "--out", str(tmp_path)]
-    with monkeypatch.context() as patch, pytest.raises(ZeroDivisionError):
+    with monkeypatch.context() as patch:
         patch.setattr(Figure, "with_published", fail)
-        main([*words, "--paper-data", str(tmp_path)])
+        with pytest.raises(ZeroDivisionError):
+            main([*words, "--paper-data", str(tmp_path)])
     assert main(words) == 0
     assert "as measured before" in capsys.readouterr().out
 

@@ -46,10 +46,10 @@ class _Hand:
         return self._object_m
 
     def _put(self, *_: Any) -> None:
-        self._object_m = _PALM_M + (0.003, 0.0, 0.0)
+        self._object_m = _PALM_M + np.array((0.003, 0.0, 0.0))
 
     def _pull(self, *_: Any) -> None:
-        self._object_m = _PALM_M + (0.003, 0.004, 0.0)
+        self._object_m = _PALM_M + np.array((0.003, 0.004, 0.0))
 
 
 @pytest.mark.parametrize("name", SCENARIOS)

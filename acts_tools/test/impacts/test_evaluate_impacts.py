@@ -43,7 +43,9 @@ def test_of_several_touches_that_are_told_the_strongest_counts(monkeypatch: pyte
     def touch(number: int, after_s: float, peak_n: float, *, is_over: bool) -> tuple[float, Impact]:
         onset_s, frames = begin_s + after_s, 3 + number
         force_n = np.array([peak_n / 2, peak_n])
-        told = Impact(number, is_over, Kind.IMPACT, onset_s, 1e-3, 0.008, frames, 0, 0, peak_n, 0, True, force_n=force_n)
+        told = Impact(
+            number, is_over, Kind.IMPACT, onset_s, 1e-3, 0.008, frames, 0, 0, peak_n, 0, True, force_n=force_n
+        )
         return onset_s + 0.001, told
 
     def play(_ours: plays.Ours, _scene: Scene, _seed: int) -> list[tuple[float, Impact]]:

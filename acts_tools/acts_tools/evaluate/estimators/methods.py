@@ -90,6 +90,18 @@ FACTORIES: dict[str, MethodFactory] = {
 }
 """The node's two methods by their names in reports, and baselines."""
 
+KINDS: dict[str, type[Method]] = {
+    "paper": PerFrame,
+    "acts": Fusion,
+    "dct": PerFrame,
+    "haar": PerFrame,
+    "zero": ZeroFill,
+    "linear": Linear,
+    "gp": GaussianProcess,
+    "last": LastValue,
+}
+"""What each of `FACTORIES` makes."""
+
 ALIASES = {"fusion": "acts", "per_frame": "paper"}
 """The node's names of these two, and what reports call them."""
 
@@ -102,6 +114,18 @@ def method_names() -> tuple[str, ...]:
 def report_name(name: str) -> str:
     """What reports call a method; a name that is not among `ALIASES` stays as it is."""
     return ALIASES.get(name, name)
+
+
+def settings_of(name: str) -> tuple[str, ...]:
+    """Names of the settings of a method.
+
+    Raises
+    ------
+    SettingsError
+        As `method_named`.
+    """
+    method_named(name)
+    return tuple(describe({**METHODS, **KINDS}[report_name(name)].Config))
 
 
 def method_named(name: str) -> MethodFactory:

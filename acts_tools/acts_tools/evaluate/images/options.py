@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,10 @@ from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_fram
 from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import add_settings, taxels, whole
+from acts_tools.arguments import add_settings, refuse_unused, taxels, whole
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
-from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name
+from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name, settings_of
 from acts_tools.evaluate.images.recovery import Task
 from acts_tools.evaluate.options import add_seed_and_json
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS
@@ -28,6 +28,7 @@ METHOD = "acts"
 """Default method."""
 
 _SCHEME, _M = "tracking", 55
+_WITH_DICTIONARY = "paper"
 _OPTIONS_OF_THEIR_OWN = ("dictionary", "patch_step")
 
 
@@ -127,16 +128,38 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
     Raises
     ------
     SettingsError
-        When something is out of range. It names each M that a scheme cannot have, not only the first.
+        When something is out of range, or has no effect. It names each M that a scheme cannot have, not only the first.
     """
-    schemes, ms = arguments.scheme or [_SCHEME], arguments.m or [_M]
+    schemes, ms, methods = arguments.scheme or [_SCHEME], arguments.m or [_M], arguments.method or [METHOD]
     require_frames([(scheme, m) for scheme in schemes for m in ms], shape)
-    return [
-        task(arguments, scheme, m, method, shape)
-        for scheme in schemes
-        for m in ms
-        for method in arguments.method or [METHOD]
-    ]
+    made = [task(arguments, scheme, m, method, shape) for scheme in schemes for m in ms for method in methods]
+    # After their ranges: what is out of range is told first.
+    require_used(arguments, methods)
+    return made
+
+
+def require_used(arguments: argparse.Namespace, methods: Sequence[str]) -> None:
+    """Refuse settings of a method, and a dictionary, that none of the chosen methods uses.
+
+    Raises
+    ------
+    SettingsError
+        It names the first of them.
+    """
+    names = ", ".join(dict.fromkeys(methods))
+    known = {name for method in methods for name in settings_of(method)}
+    for name, value in arguments.set:
+        if name not in known:
+            raise SettingsError(f"--set {name}={value} has no effect with --method {names}; leave it out")
+    if "patch_step" not in known:
+        refuse_unused(arguments, f"with --method {names}", "patch_step")
+    if not uses_dictionary(methods):
+        refuse_unused(arguments, f"with --method {names}", "dictionary")
+
+
+def uses_dictionary(methods: Sequence[str]) -> bool:
+    """Whether one of the methods uses the dictionary of ``--dictionary``."""
+    return _WITH_DICTIONARY in methods
 
 
 def require_frames(pairs: Iterable[tuple[str, int]], shape: tuple[int, ...] = (32, 32)) -> None:
