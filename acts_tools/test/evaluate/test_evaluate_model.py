@@ -77,3 +77,16 @@ def test_bounces_are_at_most_slightly_worse_than_last_values(tmp_path: Path, sch
     ours, last = (result["onset"] for result in json.loads(out.read_text())["results"])
     assert ours["relative_error"] < 1.05 * last["relative_error"]
     assert ours["cop_error_taxels"]["mean"] < 1.05 * last["cop_error_taxels"]["mean"]
+
+
+def test_presses_that_the_dictionary_was_learnt_from_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["evaluate", "recovery", "--presses", "2", "--scheme", "random", "--m", "64"]
+    for more, is_told in (
+        (["--method", "paper", "--seed", "0"], True),
+        (["--method", "paper"], False),
+        (["--seed", "0"], False),
+    ):
+        assert main([*words, *more]) == 0
+        assert (
+            "warning: --seed 0: the dictionary is learnt from presses of this seed" in capsys.readouterr().err
+        ) == is_told

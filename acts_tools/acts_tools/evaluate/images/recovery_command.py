@@ -15,6 +15,7 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_core.files import load_frames, without_contact
+from acts_recon.sparse import Dictionary
 from acts_sim.pressing import OBJECTS
 from acts_tools.arguments import at_least_one, refuse_unused
 from acts_tools.evaluate.images import options
@@ -56,6 +57,8 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.frames:
         _tell_without_contact(arguments.frames, recordings, tasks[0].touch_counts)
     dictionary = options.dictionary(arguments)
+    if arguments.presses and options.uses_dictionary([task.method for task in tasks]):
+        _tell_if_learnt_from(dictionary, arguments.seed)
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
     results = options.results(arguments, frames_file=source, peaks=arguments.peaks, every=arguments.every)
     evaluate_all(recordings, tasks, dictionary, results)
@@ -71,6 +74,17 @@ def _pressed(arguments: argparse.Namespace) -> Sequence[Recording]:
     frames = model_frames(list(OBJECTS.values()), arguments.presses, seed=arguments.seed)
     live = np.ones(frames.shape[1:], dtype=bool)
     return [Recording(frame[None], 1.0, live) for frame in frames][:: arguments.every]
+
+
+def _tell_if_learnt_from(dictionary: Dictionary, seed: int) -> None:
+    """Warn if the presses are those that `acts train` has learnt the dictionary from, which flatters it."""
+    learnt = dictionary.settings
+    if "presses" in learnt and learnt.get("seed") == seed:
+        print(
+            f"warning: --seed {seed}: the dictionary is learnt from presses of this seed, so the method paper is "
+            "better on them than on others; give another seed",
+            file=sys.stderr,
+        )
 
 
 def _recorded(arguments: argparse.Namespace) -> Sequence[Recording]:
