@@ -142,7 +142,7 @@ def test_a_picture_shows_every_m_and_accuracies_however_low(tmp_path: Path, monk
     assert [label.get_text() for label in left.get_xticklabels()] == ["8", "64"]
     assert left.get_ylim()[0] < 0.3
     # The published one is no answer at 20 ms, as ours are.
-    words = [text.get_text() for text in drawn[0].axes[1].get_legend().get_texts()]
+    words = drawn[0].axes[1].get_legend_handles_labels()[1]
     assert "published, mean since contact (Fig. 4G)" in words
     monkeypatch.undo()
     pyplot.close(drawn[0])
@@ -164,7 +164,8 @@ def test_an_interrupted_run_keeps_what_is_finished(
     if source == "presses":
         words = ("--arms", 2, "--presses", 1, "--columns", 2, "--objects", *SIX[:2], "--m", 64)
     module = trials if source == "presses" else recorded
-    out, contenders_of, made = tmp_path / "out.json", contenders, []
+    out, contenders_of = tmp_path / "out.json", contenders
+    made: list[Any] = []
 
     def interrupted(*args: Any, **options: Any) -> Any:
         # Of the first arm there are two: over M, and over time.
@@ -182,7 +183,7 @@ def test_an_interrupted_run_keeps_what_is_finished(
 
 def test_every_m_is_checked_before_the_first_is_scored(tmp_path: Path) -> None:
     frames = np.full((4, 8, 8), 300, dtype=np.uint16)
-    labels = {"start": [0, 1, 2, 3], "length": [1] * 4, "label": ["cup", "cup", "can", "can"]}
+    labels: dict[str, Any] = {"start": [0, 1, 2, 3], "length": [1] * 4, "label": ["cup", "cup", "can", "can"]}
     np.savez(tmp_path / "f.npz", frames=frames, rate_hz=31.0, **labels)
     with pytest.raises(SettingsError, match=r"m.*65.*66"):
         evaluate("--frames", tmp_path / "f.npz", "--m", 55, 65, 66, "--json", tmp_path / "out.json")
