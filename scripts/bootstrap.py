@@ -271,7 +271,6 @@ def build_workspace() -> None:
     stamp.unlink(missing_ok=True)
     say(f"colcon build of {len(packages())} packages (half a minute)")
     started = time.monotonic()
-    before = installed_scripts()
     env = {**os.environ, **environment()}
     env["PATH"] = f"{environment()['PATH']}:{os.environ['PATH']}"
     run(
@@ -295,23 +294,9 @@ def build_workspace() -> None:
         "build.log",
         env=env,
     )
-    # Each build writes all of them anew; what it has not written is of an executable that was removed or renamed. They
-    # go only now: what runs may be starting one.
-    for script, time_ns in installed_scripts().items():
-        if before.get(script) == time_ns:
-            script.unlink()
     write_first_lines()
     say(f"built in {time.monotonic() - started:.0f} s")
     stamp.write_text(wanted)
-
-
-def installed_scripts() -> dict[Path, int]:
-    """The Python packages' executables, with the times at which they were written [ns]."""
-    return {
-        path: path.stat().st_mtime_ns
-        for path in INSTALL.glob("lib/acts_*/*")
-        if path.is_file() and not path.is_symlink() and path.read_bytes().startswith(b"#!")
-    }
 
 
 def write_first_lines() -> None:

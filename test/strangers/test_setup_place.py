@@ -125,24 +125,6 @@ def test_a_change_of_the_set_up_itself_asks_for_a_build(
     assert built == ["one", "two"]
 
 
-def test_an_executable_that_no_package_has_any_more_is_removed_by_the_build(
-    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder = tmp_path / "install/lib/acts_driver"
-    folder.mkdir(parents=True)
-    (tmp_path / "acts.stamp").touch()
-    for name in ("driver", "former", "no_script"):
-        (folder / name).write_text("" if name == "no_script" else "#!/usr/bin/env python3\n")
-        # Long ago.
-        os.utime(folder / name, (1.0, 1.0))
-    (folder / "linked").symlink_to(folder / "driver")
-    for name, value in {"STATE": tmp_path, "VENV": tmp_path, "INSTALL": tmp_path / "install"}.items():
-        monkeypatch.setattr(bootstrap, name, value)
-    monkeypatch.setattr(bootstrap, "run", lambda *_, **__: (folder / "driver").write_text("#!/usr/bin/env python3\n"))
-    bootstrap.build_workspace()
-    assert {path.name for path in folder.iterdir()} == {"driver", "no_script", "linked"}
-
-
 def test_without_network_the_last_line_speaks_of_it(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
