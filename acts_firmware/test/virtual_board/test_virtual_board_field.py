@@ -78,21 +78,26 @@ def test_ring_is_read_at_the_time_of_each_measurement(tmp_path: Path, stands_sti
     with TimedRingWriter(ring, TAXELS, slots=4096) as writer:
         for time_ns, field in zip(times_ns.tolist(), fields, strict=True):
             writer.write(time_ns, field)
-        with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
-            board.open_port()
-            frames = board.read_frames(150)
-            if stands_still:
-                # What it then makes up for is what it would have measured meanwhile.
-                _, stood_s = board.stand_still(0.12)
-                frames += board.read_frames(150)
-                # The machine may prolong it beyond what is made up for.
-                assert frames[-1].overruns == frames[0].overruns or stood_s > 0.2
-            known = [frame for frame in frames if measured_at_ns(board, frame)[-1] < times_ns[-1]]
-            assert known
-            for frame in known:
-                at_ns = measured_at_ns(board, frame)
-                truth = expected(at_ns, frame.indices, times_ns.astype(float), fields)
-                assert np.abs(frame.counts - truth).max() < 0.6
+        while True:
+            with BoardProcess(tmp_path, *SMALL, "--field-ring", ring) as board:
+                board.open_port()
+                frames = board.read_frames(150)
+                stood_s = 0.0
+                if stands_still:
+                    # What it then makes up for is what it would have measured meanwhile.
+                    _, stood_s = board.stand_still(0.12)
+                    frames += board.read_frames(150)
+            # Where the machine prolongs it beyond what is made up for, another board is to.
+            if stood_s < 0.2:
+                break
+        if stands_still:
+            assert frames[-1].overruns == frames[0].overruns
+        known = [frame for frame in frames if measured_at_ns(board, frame)[-1] < times_ns[-1]]
+        assert known
+        for frame in known:
+            at_ns = measured_at_ns(board, frame)
+            truth = expected(at_ns, frame.indices, times_ns.astype(float), fields)
+            assert np.abs(frame.counts - truth).max() < 0.6
 
 
 def test_newest_slot_is_held_and_strange_values_are_clipped(tmp_path: Path) -> None:
