@@ -146,9 +146,8 @@ def main() -> int:
         failures = lint({} if arguments.lint else WARM_UP)
     if not arguments.lint and not arguments.format:
         chosen = ["-m", "not slow"] if arguments.quick else []
-        failures += test(
-            [*chosen, *arguments.pytest]
-        )  # also when a linter complained, so that one run shows all there is
+        # Also when a linter complained, so that one run shows all there is.
+        failures += test([*chosen, *arguments.pytest])
     return ended(failures)
 
 
