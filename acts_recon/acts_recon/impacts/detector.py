@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Impacts in image after image: told when they begin, and again when they are over."""
+"""Impacts in image after image: told when they begin, and again when they are over or become a part of another."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _whole(blobs: list[TrackedBlob]) -> tuple[float, float, float]:
 
 
 class ImpactDetector:
-    """Tells each touch of the skin when it begins, and what it was when it is over.
+    """Tells each touch of the skin when it begins, and what it was when it is over; or that it has joined another.
 
     What touches already when frames begin to come, for the first time or after a `reset`, is not told, because nobody
     knows when it began. Images without samples do not say what was measured, so there it is.
@@ -126,7 +126,7 @@ class ImpactDetector:
         Returns
         -------
         tuple of Impact
-            What has begun with this frame, and what is over.
+            What has begun with this frame, what has become a part of another touch, and what is over.
 
         Raises
         ------
@@ -170,30 +170,33 @@ class ImpactDetector:
                 self._next_number = self._next_number % (_NUMBERS - 1) + 1
                 self._touches.append(touch)
             parts.setdefault(touch.number, []).append(blob)
-        self._drop_those_in_others(parts)
-        begun = []
+        told = self._joined(parts, time_s)
         for touch in list(self._touches):
             blobs = parts.get(touch.number, [])
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
                 touch.add(time_s, blobs, image, self.config)
                 if touch.began_s == time_s:
                     if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
-                        begun.append(self._begun(touch))
+                        told.append(self._so_far(touch))
                     else:
                         touch.is_told = True  # all there is to tell: nothing
             elif not touch.frames_seen:
                 # The image goes on showing what was measured before: that is no new touch.
                 self._touches.remove(touch)
-        return begun
+        return told
 
-    def _drop_those_in_others(self, parts: dict[int, list[TrackedBlob]]) -> None:
-        """Forget touches whose contacts have grown into that of another."""
+    def _joined(self, parts: dict[int, list[TrackedBlob]], time_s: float) -> list[Impact]:
+        """Tell of touches whose contacts have grown into that of another, and forget them."""
+        told = []
         for touch in [one for one in self._touches if one.number not in parts]:
             for other in self._touches:
                 blobs = parts.get(other.number, [])
                 if other.patch == touch.patch and any(_covers(blob, touch.x_m, touch.y_m) for blob in blobs):
                     self._touches.remove(touch)
+                    if not touch.is_told:
+                        told.append(self._so_far(touch, joined=other.number, until_s=time_s))
                     break
+        return told
 
     def _is_felt(self, touch: Touch, blobs: list[TrackedBlob], time_s: float, is_sampled: bool) -> bool:
         """Whether this frame's own samples show the touch, or say nothing of it."""
@@ -230,15 +233,17 @@ class ImpactDetector:
         """How far from its centre a touch may be met [m]: of a large contact the centre may be far away."""
         return max(self.config.impact_join_m, touch.reach_m)
 
-    def _begun(self, touch: Touch) -> Impact:
+    def _so_far(self, touch: Touch, *, joined: int = 0, until_s: float | None = None) -> Impact:
+        """What is known of a touch that has begun, or now becomes a part of another."""
         onset_s, onset_sd_s = touch.onset(self._untouched_before(touch))
         return Impact(
             number=touch.number,
             is_over=False,
             kind=Kind.UNKNOWN,
+            joined=joined,
             onset_s=onset_s,
             onset_sd_s=onset_sd_s,
-            duration_s=0.0,
+            duration_s=0.0 if until_s is None else max(float(until_s - onset_s), 0.0),
             frames=touch.frames_seen,
             x_m=touch.x_m,
             y_m=touch.y_m,
@@ -257,8 +262,13 @@ class ImpactDetector:
         for touch in self._touches:
             gone_s = time_s - touch.last_s
             if gone_s > 0 and gone_s >= config.impact_quiet_s:
-                if not touch.is_told and not self._is_part(touch, image):
-                    told.append(self._over(touch, period_s))
+                if not touch.is_told:
+                    whole = self._whole_of(touch, image)
+                    told.append(
+                        self._over(touch, period_s)
+                        if whole is None
+                        else self._so_far(touch, joined=whole.number, until_s=time_s)
+                    )
                 continue
             still.append(touch)
             is_late = time_s - touch.began_s > config.impact_longest_s
@@ -272,18 +282,21 @@ class ImpactDetector:
         self._touches = still
         return told
 
-    def _is_part(self, touch: Touch, image: NDArray[np.float32]) -> bool:
-        """Whether a touch that is not felt any more has become one with another: the skin there is still pressed."""
+    def _whole_of(self, touch: Touch, image: NDArray[np.float32]) -> Touch | None:
+        """The touch that one which is not felt any more has become a part of: the skin there is still pressed."""
         row, col = self._place(touch.x_m, touch.y_m)
         top, bottom, left, right = self._borders.rectangles[touch.patch].tolist()
         around = image[max(row - 1, top) : min(row + 2, bottom), max(col - 1, left) : min(col + 2, right)]
+        if around.max() <= self._touch_counts:
+            return None
         others = (
             other
             for other in self._touches
             if other.patch == touch.patch
+            and other.last_s > touch.last_s
             and math.dist((other.x_m, other.y_m), (touch.x_m, touch.y_m)) <= self._reach_m(other)
         )
-        return bool(around.max() > self._touch_counts) and any(other.last_s > touch.last_s for other in others)
+        return max(others, key=lambda other: other.last_s, default=None)
 
     def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
         time, force_n, path_x_m, path_y_m = touch.path()

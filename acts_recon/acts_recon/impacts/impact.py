@@ -33,14 +33,15 @@ def _nothing() -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Impact:
-    """A touch that has begun, or one that is over; positions are in the skin's frame. No number is ever NaN.
+    """A touch that has begun, has joined another, or is over; positions are in the skin's frame. No number is ever NaN.
 
     Attributes
     ----------
     number : int
         Which touch this is, from 1; the same at its beginning and when it is over.
     is_over : bool
-        False: it has just begun. Then only number, onset and place are known, and the force so far.
+        False: it has just begun, or `joined` another. Then only number, onset, place and frames are known, the force
+        so far and, where it has joined another, its duration.
     kind : Kind
         UNKNOWN until it is over.
     onset_s, onset_sd_s : float
@@ -49,6 +50,9 @@ class Impact:
         How long it touched; of an impact that stayed, how long it was watched [s].
     frames : int
         Frames in which at least one of its taxels was measured pressed.
+    joined : int
+        0, or the number of the touch that this one has become a part of, as where a palm comes down: it goes on as that
+        one, and nothing more is told of this number.
     bounced : bool
         Whether it was an impact that left the skin again.
     x_m, y_m : float
@@ -80,6 +84,7 @@ class Impact:
     peak_n: float
     peak_sd_n: float
     bounced: bool = False
+    joined: int = 0
     impulse_n_s: float = 0.0
     impulse_sd_n_s: float = 0.0
     direction_rad: float = 0.0

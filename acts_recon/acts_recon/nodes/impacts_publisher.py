@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Topic ``impacts`` of the reconstruction node: touches that begin, and what they were when they are over."""
+"""Topic ``impacts`` of the reconstruction node: touches that begin, join others, or are over."""
 
 from __future__ import annotations
 
@@ -53,6 +53,7 @@ class ImpactsPublisher(TopicPublisher):
 def _message(header: Header, sequence: int, end_s: float, impact: Impact) -> ImpactMessage:
     message = ImpactMessage(header=header, sequence=sequence, number=impact.number, is_over=impact.is_over)
     message.kind = int(impact.kind)
+    message.joined = impact.joined
     message.bounced = impact.bounced
     # Seconds since 1970 leave too few digits: what counts is how long before the stamp.
     onset_ns = max(ns_of(header.stamp) - round((end_s - impact.onset_s) * 1e9), 0)

@@ -122,6 +122,28 @@ def test_what_rests_for_long_is_over_once(scheme: str, m: int) -> None:
     assert len(over) == (1 if scheme == "adaptive" else 2)  # with few samples the two lie near enough to be one
 
 
+@pytest.mark.parametrize(("scheme", "m"), [("tracking", 55), ("hybrid", 55), ("random", 128), ("adaptive", 55)])
+def test_each_touch_that_begins_is_over_or_joins_another(scheme: str, m: int) -> None:
+    """A palm begins in several places that grow together: those that did were never told of again."""
+    palm, finger = 500 * bump(32, 32, 20, 16, 4.0), 400 * bump(32, 32, 6, 8, 1.5)
+
+    def pressure(time_s: float) -> Array:
+        return min(max((time_s - 0.2) / 0.03, 0.0), 1.0) * (palm + finger) * (time_s < 0.5)
+
+    settings = ReconstructionSettings(touch_counts=25)
+    told = told_of(settings, SamplingConfig(scheme, 32, 32, m, threshold_counts=25), pressure, 0.6)
+    ends = {one.number: one for one in told if one.is_over or one.joined}
+    begun = [one.number for one in told if not (one.is_over or one.joined)]
+    assert sorted(begun) == sorted(ends)
+    assert len(told) == 2 * len(begun)
+    joined = [one for one in ends.values() if one.joined]
+    assert joined or scheme == "adaptive"  # with few samples the palm begins in one place
+    for one in joined:
+        assert (one.is_over, one.kind) == (False, Kind.UNKNOWN)
+        assert ends[one.joined].onset_s + ends[one.joined].duration_s >= one.onset_s + one.duration_s
+        assert 0.0 <= one.duration_s < 0.05
+
+
 @pytest.mark.parametrize(("scheme", "m"), [("tracking", 64), ("adaptive", 64), ("random", 64), ("raster", 1024)])
 @pytest.mark.parametrize("width", [0.8, 4.0])
 def test_what_rests_when_frames_begin_to_come_has_not_begun_then(scheme: str, m: int, width: float) -> None:

@@ -88,6 +88,26 @@ def test_a_long_press_of_images_without_times_is_told(make_bench: Callable[..., 
     assert told[1].duration == pytest.approx(0.070, abs=0.003)
 
 
+def test_a_touch_that_grows_into_another_says_which_it_has_joined(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(208)
+    impacts = publisher_of(bench.node, ImpactsPublisher)
+    bench.listen(Impact, "impacts", qos.STREAM)
+    bench.until(lambda: impacts.is_wanted)
+    nothing, both, bar = np.zeros((32, 32)), bump(GEOMETRY, 10.0, 15.0) + bump(GEOMETRY, 21.0, 15.0), np.zeros((32, 32))
+    bar[9:23, 14:17] = 500
+    for sequence in range(120):
+        image = both if 10 <= sequence < 20 else bar if 20 <= sequence < 100 else nothing
+        bench.take(sequence, image)
+    told = bench.received["impacts"]
+    bench.until(lambda: bool(told) and told[-1].is_over)
+    assert [one.is_over for one in told] == [False, False, False, True]
+    begun, joined, over = told[:2], told[2], told[3]
+    assert [one.joined for one in told] == [0, 0, over.number, 0]
+    assert {joined.number, over.number} == {one.number for one in begun}
+    assert joined.sequence >= 20
+    assert joined.duration == pytest.approx(0.011, abs=0.004)
+
+
 def test_a_tare_neither_ends_a_touch_nor_begins_one(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(208)
     impacts = publisher_of(bench.node, ImpactsPublisher)

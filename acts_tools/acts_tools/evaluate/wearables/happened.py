@@ -59,7 +59,7 @@ class Tally:
     def add(self, shown: WornScene, told: Sequence[tuple[float, Impact]]) -> None:
         """Take what was told of a scene, each with the end of the frame that told it [s]."""
         self.scenes += 1
-        first = {impact.number: (at_s, impact) for at_s, impact in told if not impact.is_over}
+        first = {impact.number: (at_s, impact) for at_s, impact in told if not (impact.is_over or impact.joined)}
         over = [impact for _, impact in told if impact.is_over]
         errors_ms = []
         for event in shown.events:
