@@ -6,16 +6,18 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from acts_recon.impacts import Impact, Kind
+from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_sim.impacts import Scene
 from acts_tools.cli import main
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.impacts.impacts_command import TOUCH_MS, drops_of, seen_by_us
+from acts_tools.evaluate.impacts.ricochet_command import numbered_throw, told_by_us
 
 
 def test_bounces_are_told_and_seen_as_often_as_by_the_papers_method(tmp_path: Path) -> None:
@@ -60,6 +62,33 @@ def test_of_several_touches_that_are_told_the_strongest_counts(monkeypatch: pyte
     assert entry["onset_error_ms"]["mean"] == pytest.approx(0, abs=1e-6)
     assert entry["delay_ms"]["mean"] == pytest.approx(1)
     assert entry["peak_share"]["mean"] == pytest.approx(1)
+
+
+def test_of_several_touches_of_a_throw_the_direction_of_the_strongest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    def touch(number: int, peak_n: float, direction_rad: float, sd_rad: float) -> tuple[float, Impact]:
+        told = Impact(
+            number,
+            True,
+            Kind.IMPACT,
+            0.1,
+            1e-3,
+            0.008,
+            5,
+            0,
+            0,
+            peak_n,
+            0,
+            direction_rad=direction_rad,
+            direction_sd_rad=sd_rad,
+        )
+        return 0.11, told
+
+    told = [touch(1, 0.1, 2.0, 0.01), touch(2, 3.0, math.radians(91), math.radians(2)), touch(3, 0.5, -1.0, 0.01)]
+    monkeypatch.setattr(plays.Ours, "play", lambda *_: told)
+    ours, shown = plays.Ours("tracking", 64, 3.0), numbered_throw(2.0, 90, 1, 0)
+    assert told_by_us(ours, shown, 1, 90) == pytest.approx((1.0, 2.0))
+    told[1] = touch(2, 3.0, 0.0, UNKNOWN_DIRECTION_SD_RAD)
+    assert told_by_us(ours, shown, 1, 90) is None
 
 
 def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) -> None:

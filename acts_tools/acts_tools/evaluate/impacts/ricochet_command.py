@@ -161,12 +161,12 @@ def error_deg(direction_rad: float | None, angle_deg: int) -> float | None:
 
 
 def told_by_us(ours: plays.Ours, shown: Scene, seed: int, angle_deg: int) -> tuple[float, float] | None:
-    """Error and standard deviation [deg]; None where no direction is told."""
-    for _, impact in ours.play(shown, seed):
-        if impact.is_over and impact.direction_sd_rad < UNKNOWN_DIRECTION_SD_RAD:
-            error = error_deg(impact.direction_rad, angle_deg)
-            return None if error is None else (error, math.degrees(impact.direction_sd_rad))
-    return None
+    """Error and standard deviation [deg] of the strongest touch; None where no direction of it is told."""
+    impact = plays.strongest_over(ours.play(shown, seed))
+    if impact is None or impact.direction_sd_rad >= UNKNOWN_DIRECTION_SD_RAD:
+        return None
+    error = error_deg(impact.direction_rad, angle_deg)
+    return None if error is None else (error, math.degrees(impact.direction_sd_rad))
 
 
 def scores_of(paper: Sequence[float | None], ours: Sequence[tuple[float, float] | None]) -> dict[str, Any]:
