@@ -61,7 +61,7 @@ class Tracking(SamplingScheme):
 
     name = "tracking"
     number = 6
-    description = "a search continued from the last frame, then what was pressed in the last frames"
+    description = "a search continued from the last frame, then what was pressed when last measured, and its neighbours"
     own_settings = (SEARCH_QUOTA,)
 
     def __init__(self, config: CommonSettings, skin_map: SkinMap) -> None:

@@ -34,7 +34,7 @@ class Tracking : public SchemeDefaults {
   static constexpr SchemeInfo kInfo = {
       "tracking",
       Scheme{6},
-      "a search continued from the last frame, then what was pressed in the last frames",
+      "a search continued from the last frame, then what was pressed when last measured, and its neighbours",
       {{kSearchQuota}}};
 
   // Forgets what was pressed and where the search stopped.
