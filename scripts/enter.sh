@@ -35,7 +35,8 @@ if ! command -v ros2 >/dev/null 2>&1; then
 elif ! acts_is_sourced; then
   if [ ! -f "$acts_root/install/setup.bash" ]; then
     echo "[setup] ROS 2 ${ROS_DISTRO:-} is sourced, but no workspace with ACTS in it. In the workspace's folder run:" >&2
-    echo "[setup]   rosdep install --from-paths . --ignore-src -y && colcon build && source install/setup.bash" >&2
+    echo "[setup]   rosdep install --from-paths . --ignore-src -y && pip install -r $acts_root/requirements-ros.txt" >&2
+    echo "[setup]   colcon build && source install/setup.bash" >&2
     exit 1
   fi
   set +u # setup files use variables that are not set

@@ -73,11 +73,18 @@ def _parser() -> argparse.ArgumentParser:
         prog="skins", description="Run a process for every skin of a file (docs/skins.md)."
     )
     parser.add_argument("--skins-file", type=Path, required=True, help="YAML file that describes the skins")
-    parser.add_argument("--sim", choices=_TRUTHS, default="true", help="whether boards are simulated")
+    parser.add_argument("--sim", type=_word, choices=_TRUTHS, default="true", help="whether boards are simulated")
     parser.add_argument("--run-dir", type=Path, default=default_run_dir(), help="folder for files of simulated boards")
-    parser.add_argument("--merge", choices=_TRUTHS, default="false", help="whether the contacts are merged as well")
+    parser.add_argument(
+        "--merge", type=_word, choices=_TRUTHS, default="false", help="whether the contacts are merged as well"
+    )
     parser.add_argument("--base-frame", default="none", help="frame of the merged contacts; none: that of the file")
     return parser
+
+
+def _word(text: str) -> str:
+    """As the conditions of launch files take a truth."""
+    return text.strip().lower()
 
 
 def _split(words: list[str]) -> tuple[list[str], list[str]]:

@@ -188,7 +188,7 @@ def test_where_contacts_are_merged_a_skin_that_cannot_be_placed_keeps_all_from_s
     tmp_path: Path, change: tuple[str, str], words: tuple[str, ...], fixed_to: str
 ) -> None:
     path = skins_yaml(tmp_path, TWO.replace(*change))
-    with running(tmp_path, path, 162, "--merge", "true", *words) as skins:
+    with running(tmp_path, path, 162, "--merge", " True", *words) as skins:
         assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
         assert skins.output.startswith(f"error: {path}:3: skin left: the frame left is fixed to {fixed_to}: ")
         assert skins.output.count("\n") == 1

@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from acts_core.errors import ActsError
+from acts_ros.executables.missing_packages import advice_about
 from acts_ros.executables.shared_memory import check_shared_memory
 from acts_tools import INTERRUPTED, __version__
 
@@ -85,6 +86,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return int(module.run(arguments))
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr)
+        return 1
+    except ModuleNotFoundError as error:
+        advice = advice_about(error)
+        if not advice:
+            raise
+        print(f"error: {advice}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return INTERRUPTED

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
 from acts_core.stop_signals import StopSignals
+from acts_ros.executables.missing_packages import advice_about
 from acts_ros.executables.refused import stay, take_stay_word
 from acts_ros.executables.shared_memory import check_shared_memory
 from acts_ros.executables.standby import PREPARE_AFTER_S, Standby, say_ready, take_standby_word
@@ -68,6 +69,15 @@ class Program:
         except ActsError as error:
             print(f"error: {error}", file=sys.stderr, flush=True)
             return exit_code(error)
+        except ModuleNotFoundError as error:
+            advice = advice_about(error)
+            if not advice:
+                raise
+            print(f"error: {advice}", file=sys.stderr, flush=True)
+            return REFUSED_EXIT_CODE
+        except SystemExit as error:
+            # argparse refuses a command line so, after it has said why.
+            return error.code if isinstance(error.code, int) else int(error.code is not None)
         except KeyboardInterrupt:
             # Stopped before the program had started.
             return 0

@@ -83,6 +83,62 @@ def test_what_stays_under_nohup_goes_on_ignoring_the_end_of_the_terminal(tmp_pat
             process.kill()
 
 
+PARSING_NODE = """
+import argparse, sys
+
+def main(signals):
+    parser = argparse.ArgumentParser(prog="a_node")
+    parser.add_argument("--sim", choices=["true", "false"])
+    try:
+        parser.parse_args(sys.argv[1:])
+    finally:
+        signals.ended()
+"""
+NEEDY_NODE = "import {module}\n"
+
+
+def run_to_refusal(folder: Path, node: str, *words: str) -> tuple[str, int]:
+    """What a node says under a launcher that would start it again, until it stays, and its exit code after SIGTERM."""
+    (folder / "such_a_node.py").write_text(node)
+    # A package that is too old, or not there, whatever is installed.
+    for name in ("rosbags", "websockets"):
+        (folder / name).mkdir()
+        (folder / name / "__init__.py").touch()
+    inherited = {name: value for name, value in os.environ.items() if name != LAUNCHER_VARIABLE}
+    path = os.pathsep.join([str(folder), os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, "-m", "acts_ros.executables.program", "such_a_node", STAY_WORD, *words]
+    with subprocess.Popen(command, env={**inherited, "PYTHONPATH": path}, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr is not None
+        said = ""
+        try:
+            for line in process.stderr:
+                said += line
+                if "does nothing" in line:
+                    process.terminate()
+            return said, process.wait(DEADLINE_S)
+        finally:
+            process.kill()
+
+
+def test_a_command_line_that_is_refused_stays(tmp_path: Path) -> None:
+    """It ended, and ros2 launch started it again and again."""
+    said, code = run_to_refusal(tmp_path, PARSING_NODE, "--sim", "perhaps")
+    assert "invalid choice: 'perhaps'" in said
+    assert "does nothing" in said
+    assert code == REFUSED_EXIT_CODE
+
+
+@pytest.mark.parametrize("module", ["rosbags.highlevel", "websockets.asyncio.server"])
+def test_a_package_that_rosdep_does_not_know_is_named_with_what_to_do(tmp_path: Path, module: str) -> None:
+    said, code = run_to_refusal(tmp_path, NEEDY_NODE.format(module=module))
+    assert "Traceback" not in said
+    assert said.startswith(
+        f"error: {module.rpartition('.server')[0] or module} is not installed, or too old: pip install"
+    )
+    assert "does nothing" in said
+    assert code == REFUSED_EXIT_CODE
+
+
 @pytest.mark.parametrize(
     ("error", "words", "environment", "code"),
     [

@@ -45,7 +45,9 @@ def add_parser(commands: Any) -> None:
         "docs/wearables.md tells what the numbers mean.",
     )
     parser.add_argument("--scene", nargs="*", choices=tuple(SCENES), default=list(SCENES), help="default: all")
-    parser.add_argument("--untouched", nargs="*", choices=SKINS, default=list(SKINS), help="skins (default: all; without names: none)")
+    parser.add_argument(
+        "--untouched", nargs="*", choices=SKINS, default=list(SKINS), help="skins (default: all; without names: none)"
+    )
     parser.add_argument(
         "--minutes", type=real(0.0), default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
     )
