@@ -74,6 +74,26 @@ def test_run_without_a_program_says_what_it_is_for() -> None:
     assert done.stderr.startswith("usage: ./acts run PROGRAM [ARGUMENT ...], any program inside the environment")
 
 
+@pytest.mark.skipif(shutil.which("ros2") is not None, reason="with ROS sourced the environment is the user's own")
+def test_a_shell_in_the_environment_has_its_python_whatever_bashrc_puts_first(tmp_path: Path) -> None:
+    """As `eval "$(pyenv init -)"` in ~/.bashrc does."""
+    (tmp_path / "python3").write_text("#!/bin/sh\necho of another\n")
+    (tmp_path / "python3").chmod(0o755)
+    (tmp_path / ".bashrc").write_text(f'export PATH={tmp_path}:"$PATH"\nalias=of_mine\n')
+    master, slave = os.openpty()
+    command = [str(BOOTSTRAP.parents[1] / "acts"), "run", "bash"]
+    environment = {**os.environ, "HOME": str(tmp_path)}
+    with subprocess.Popen(command, stdin=slave, stdout=subprocess.PIPE, stderr=slave, env=environment) as shell:
+        os.close(slave)
+        os.write(master, b"python3 -c 'import acts_core, numba; print(\"of acts\")'; echo $alias; exit\n")
+        try:
+            said, _ = shell.communicate(timeout=60)
+        finally:
+            shell.kill()
+            os.close(master)
+    assert said.decode().splitlines() == ["of acts", "of_mine"]
+
+
 @pytest.fixture
 def bootstrap() -> ModuleType:
     """The set-up's functions."""
