@@ -12,6 +12,7 @@ sampled as a board would: docs/driver.md, "Replaying a recording". The size of t
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -33,7 +34,7 @@ def main() -> None:
     recording = open_recording(ReplayOptions(parser.parse_args().file, sampling=sampling))
 
     recovery: Recovery | None = None
-    pressed = 0
+    pressed, told = 0, -50
     for frame in recording.frames():
         frame = frame.once()  # where a board measured some taxels again and again, the last of each
         if recovery is None:
@@ -43,7 +44,8 @@ def main() -> None:
         contact = recovery.step(frame.indices, frame.counts, end_s, duration_s)
         # recovery.image and recovery.sigma are (rows, cols) float32 [counts]; overwritten by the next step.
         pressed += contact.in_contact
-        if contact.in_contact and frame.sequence % 50 == 0:
+        if contact.in_contact and frame.sequence >= told + 50:
+            told = frame.sequence
             x_mm, y_mm = 1000 * contact.x_m, 1000 * contact.y_m
             print(f"{end_s:7.3f} s: x {x_mm:6.2f} mm, y {y_mm:6.2f} mm, {contact.force_n:5.2f} N, ", end="")
             print(f"x uncertain by {1000 * contact.x_sd_m:.2f} mm")
@@ -54,5 +56,7 @@ def main() -> None:
 if __name__ == "__main__":
     try:
         main()
+    except BrokenPipeError:  # `| head` has read enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except ActsError as error:
         sys.exit(f"error: {error}")

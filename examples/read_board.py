@@ -10,6 +10,7 @@ python3 examples/read_board.py /dev/ttyUSB0 --ascii 16 16          # lines of te
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
 import time
 
@@ -34,8 +35,6 @@ def main() -> None:
     source.open()
     try:
         read(source, decoder, arguments.seconds)
-    except KeyboardInterrupt:
-        pass
     finally:
         source.close()
 
@@ -45,23 +44,26 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
     contact: Contact | None = None
     begin_s = told_s = time.monotonic()
     frames = 0
-    while (now_s := time.monotonic()) < begin_s + seconds:
-        # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
-        for frame in decoder.feed(source.read()):
-            if recovery is None:
-                print(f"an array of {frame.rows} x {frame.cols}; compiling takes some ten seconds, once", flush=True)
-                skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
-                recovery = Recovery(Fusion(skin), skin)
-                begin_s = told_s = time.monotonic()  # to compile it the first time has taken a while
-            frames += 1
-            end_s = frame.board_us * 1e-6
-            frame = frame.once()  # where a board measures some taxels again and again, the last of each
-            contact = recovery.step(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6)
-        if now_s >= told_s + 1.0:
-            told_s = now_s
-            tell(decoder, frames, contact)
+    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C ends it, too
+        while (now_s := time.monotonic()) < begin_s + seconds:
+            # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
+            for frame in decoder.feed(source.read()):
+                if recovery is None:
+                    print(
+                        f"an array of {frame.rows} x {frame.cols}; compiling takes some ten seconds, once", flush=True
+                    )
+                    skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
+                    recovery = Recovery(Fusion(skin), skin)
+                    begin_s = told_s = time.monotonic()  # to compile it the first time has taken a while
+                frames += 1
+                end_s = frame.board_us * 1e-6
+                frame = frame.once()  # where a board measures some taxels again and again, the last of each
+                contact = recovery.step(frame.indices, frame.counts, end_s, frame.duration_us * 1e-6)
+            if now_s >= told_s + 1.0:
+                told_s = now_s
+                tell(decoder, frames, contact)
     if frames == 0:
-        sys.exit(f"error: no frame from {source.name} in {seconds:g} s")
+        sys.exit(f"error: no frame from {source.name} in {min(seconds, time.monotonic() - begin_s):.2g} s")
     tell(decoder, frames, contact)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import runpy
+import signal
 import subprocess
 import sys
 import tty
@@ -105,6 +106,33 @@ def virtual_board(folder: Path, protocol: str) -> Iterator[Path]:
             yield folder / "board"
         finally:
             board.kill()
+
+
+@pytest.mark.parametrize("pressed_from", [0, 60])
+def test_a_short_press_is_told_whenever_it_comes(run: Run, tmp_path: Path, pressed_from: int) -> None:
+    """It was told only in every fiftieth frame."""
+    frames = np.zeros((90, 8, 8))
+    frames[pressed_from : pressed_from + 10, 3:5, 3:5] = 400
+    np.savez(tmp_path / "short.npz", frames=frames, rate_hz=1000.0)
+    (line,) = run("fuse_recording.py", str(tmp_path / "short.npz")).splitlines()
+    assert f"{pressed_from / 1000:.2f}" in line[:7]
+
+
+def test_a_board_that_is_no_more_listened_to_is_told_of_at_the_end(tmp_path: Path) -> None:
+    with virtual_board(tmp_path, "binary") as port:
+        command = [sys.executable, str(EXAMPLES / "read_board.py"), str(port)]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as example:
+            try:
+                assert example.stdout is not None
+                assert example.stdout.readline().startswith("an array of 16 x 16")
+                example.stdout.readline()
+                example.send_signal(signal.SIGINT)
+                rest, errors = example.communicate(timeout=30)
+            finally:
+                example.kill()
+    assert example.returncode == 0
+    assert errors == ""
+    assert "frames, 0 packets damaged" in rest.splitlines()[-1]
 
 
 @pytest.mark.parametrize("protocol", ["binary", "raster_ascii"])
