@@ -35,7 +35,7 @@ WITHOUT_KEY = {"dashboard_client", "mujoco", "playwright", "pyarrow", "rosbags",
 WITHOUT_KEY |= {"backports", "compression", "lz4"}  # rosbags brings them
 WITHOUT_KEY |= {"websockets"}
 # What finds the files that a package installs.
-SHARES = ("get_package_share_directory", "packages.share")
+SHARES = ("get_package_share_directory", "get_package_prefix", "packages.share")
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 

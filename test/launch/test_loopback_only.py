@@ -98,7 +98,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
             print((folder / "launch.txt").read_text(errors="replace"))
 
 
-@pytest.mark.parametrize("name", ["tactile", "ball_balancing", "skins"])
+@pytest.mark.parametrize("name", ["tactile", "ball_balancing", "skins", "hand_reflexes"])
 @pytest.mark.parametrize(
     ("sim", "asked", "wanted"), [("true", None, "LOCALHOST"), ("true", "SUBNET", "SUBNET"), ("false", None, None)]
 )
