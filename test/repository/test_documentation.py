@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -86,6 +87,16 @@ def test_links_into_pages_lead_to_a_heading(page: Path) -> None:
     for target, anchor in re.findall(r"\]\((?!https?:)([^)#]*\.md)?#([^)]+)\)", page.read_text()):
         other = page.parent / target if target else page
         assert anchor in headings(other), f"{page.name} links to {target}#{anchor}"
+
+
+def test_what_pages_call_an_argument_is_one_of_a_launch_file() -> None:
+    """Pages gave parameters so, which `ros2 launch` silently ignores."""
+    files = (ROOT / "launch").glob("*.launch.xml")
+    names = {arg.get("name") for file in files for arg in ElementTree.parse(file).iter("arg")}
+    names |= {"sigterm_timeout", "sigkill_timeout", "dictionry"}  # of the launcher; the example of a wrong one
+    given = [(page.name, name) for page in PAGES for name in re.findall(r"`([a-z_]+):=[^`]*`", page.read_text())]
+    assert len(given) > 30
+    assert [(page, name) for page, name in given if name not in names] == []
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
