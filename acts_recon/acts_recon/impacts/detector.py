@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_recon.impacts.onset_fit import follow_back, follow_back_impact
 from acts_recon.impacts.samples import RecentSamples
-from acts_recon.impacts.touch import Touch, impulse_of, reach_m_of
+from acts_recon.impacts.touch import Force, Touch, impulse_of, reach_m_of
 
 Array = NDArray[np.float64]
 
@@ -38,6 +39,19 @@ def _whole(blobs: list[TrackedBlob]) -> tuple[float, float, float]:
     strongest = blobs[0]
     reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
     return strongest.x_m, strongest.y_m, reach_m
+
+
+def _with_direction(impact: Impact, fitted: Footprint) -> Impact:
+    """The same impact, with the way that its footprint went."""
+    vx, vy = fitted.velocity_m_s.tolist()
+    sd_x, sd_y = np.sqrt(np.diag(fitted.covariance)).tolist()
+    return replace(
+        impact,
+        direction_rad=math.atan2(vy, vx),
+        direction_sd_rad=min(fitted.direction_sd_rad, UNKNOWN_DIRECTION_SD_RAD),
+        velocity_m_s=(vx, vy),
+        velocity_sd_m_s=(sd_x, sd_y),
+    )
 
 
 class ImpactDetector:
@@ -299,42 +313,24 @@ class ImpactDetector:
         return max(others, key=lambda other: other.last_s, default=None)
 
     def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
-        time, force_n, path_x_m, path_y_m = touch.path()
-        last = float(time[-1])
+        """What a touch was that is over, or an impact that stays on the skin."""
         is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
-        fitted = self._footprint(touch, time, force_n, path_x_m, path_y_m) if is_short else None
-        peak_n, peak_sd_n = touch.peak_n, touch.peak_sd_n
-        x_m, y_m = touch.peak_x_m, touch.peak_y_m
+        course = touch.path()
+        fitted = self._footprint(touch, *course) if is_short else None
+        x_m, y_m, peak_n, peak_sd_n = touch.peak_x_m, touch.peak_y_m, touch.peak_n, touch.peak_sd_n
         if fitted is not None:
             # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
-            time, force_n = fitted.time_s, fitted.force_n
-            path_x_m, path_y_m = fitted.path(time)
-            x_m, y_m = (float(one[0]) for one in fitted.path(fitted.time_s[[fitted.force_n.argmax()]]))
-            peak_n, peak_sd_n = float(fitted.force_n.max()), FORCE_SD * float(fitted.force_n.max())
-        force = (time, force_n) if fitted is None else (fitted.time_s, fitted.force_n)
-        followed = None if fitted is None else follow_back_impact(fitted)
-        onset_s, onset_sd_s = touch.onset(
-            self._untouched_before(touch), force if is_short and fitted is None else None, followed
-        )
-        # What taps for long may look like an impact that stays; the onset of one that is none is hardly known so.
-        if touch.slow_onset is not None and (not is_short or onset_sd_s > _UNSURE_S):
-            onset_s, onset_sd_s = touch.slow_onset
-        if stays:
-            end_s = touch.last_s
-        else:
-            free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.patch, touch.last_sample_s, math.inf)
-            end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force if is_short else None)
+            course = fitted.time_s, fitted.force_n, *fitted.path(fitted.time_s)
+            top = int(fitted.force_n.argmax())
+            peak_n, x_m, y_m = (float(one[top]) for one in course[1:])
+            peak_sd_n = FORCE_SD * peak_n
+        time_s, force_n, path_x_m, path_y_m = course
+        force = time_s, force_n
+        onset_s, onset_sd_s = self._onset(touch, force, fitted, is_short)
+        end_s = touch.last_s if stays else self._last_touched(touch, force if is_short else None, period_s)
         kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self._frame_s, self.config)
-        velocity, sd, direction, direction_sd = (0.0, 0.0), (0.0, 0.0), 0.0, UNKNOWN_DIRECTION_SD_RAD
-        if fitted is not None and kind is Kind.IMPACT:
-            vx, vy = fitted.velocity_m_s.tolist()
-            velocity = (vx, vy)
-            sd_x, sd_y = np.sqrt(np.diag(fitted.covariance)).tolist()
-            sd = (sd_x, sd_y)
-            direction = math.atan2(vy, vx)
-            direction_sd = min(fitted.direction_sd_rad, UNKNOWN_DIRECTION_SD_RAD)
-        impulse_n_s = impulse_of(force, onset_s, end_s if is_short else last)
-        return Impact(
+        impulse_n_s = impulse_of(force, onset_s, end_s if is_short else float(time_s[-1]))
+        told = Impact(
             number=touch.number,
             is_over=True,
             kind=kind,
@@ -349,15 +345,28 @@ class ImpactDetector:
             bounced=kind is Kind.IMPACT and not stays,
             impulse_n_s=impulse_n_s,
             impulse_sd_n_s=FORCE_SD * impulse_n_s if fitted is not None else impulse_n_s * peak_sd_n / peak_n,
-            direction_rad=direction,
-            direction_sd_rad=direction_sd,
-            velocity_m_s=velocity,
-            velocity_sd_m_s=sd,
-            time_s=time,
+            time_s=time_s,
             force_n=force_n,
             path_x_m=path_x_m,
             path_y_m=path_y_m,
         )
+        return told if fitted is None or kind is not Kind.IMPACT else _with_direction(told, fitted)
+
+    def _onset(self, touch: Touch, force: Force, fitted: Footprint | None, is_short: bool) -> tuple[float, float]:
+        """When a touch that is over first touched, and the standard deviation [s]."""
+        followed = None if fitted is None else follow_back_impact(fitted)
+        of_images = force if is_short and fitted is None else None
+        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch), of_images, followed)
+        # What taps for long may look like an impact that stays; the onset of one that is none is hardly known so.
+        if touch.slow_onset is not None and (not is_short or onset_sd_s > _UNSURE_S):
+            return touch.slow_onset
+        return onset_s, onset_sd_s
+
+    def _last_touched(self, touch: Touch, force: Force | None, period_s: float) -> float:
+        """When a touch that is over was last touched [s]."""
+        free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.patch, touch.last_sample_s, math.inf)
+        end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force)
+        return end_s
 
     def _followed_back(self, touch: Touch, time_s: float) -> tuple[float, float] | None:
         """When a touch that is no impact began, and the standard deviation [s]."""

@@ -24,7 +24,7 @@ _FALLEN_SHARE = 0.5
 # Hertz: the force of what meets the skin at a steady speed grows with time to this power.
 _RISE_POWER = 1.5
 
-_TIME, _FORCE, _FORCE_SD, _X, _Y = range(5)
+_TIME, _FORCE, _X, _Y = range(4)
 
 Force = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Times and forces [s, N]."""
@@ -67,12 +67,12 @@ class Touch:
         self.peak_x_m = self.peak_y_m = 0.0
         self.peak_image = np.zeros((0, 0), dtype=np.float32)
         self._settled_m: tuple[float, float] | None = None
-        self._rows = np.zeros((MAX_FRAMES, 5))
+        self._rows = np.zeros((MAX_FRAMES, 4))
         self._n = 0
 
     @property
     def rows(self) -> NDArray[np.float64]:
-        """Time, force, its standard deviation, x and y of the frames that are kept; shape (n, 5)."""
+        """Time, force, x and y of the frames that are kept; shape (n, 4)."""
         return self._rows[: self._n]
 
     def see(self, pressed_s: NDArray[np.float64]) -> None:
@@ -106,7 +106,7 @@ class Touch:
             self._settled_m = self._settled_m or (x_m, y_m)
             self.way_m = max(self.way_m, math.dist(self._settled_m, (x_m, y_m)))
         if age_s <= config.impact_longest_s and self._n < MAX_FRAMES:
-            self._rows[self._n] = time_s, force_n, sd_n, x_m, y_m
+            self._rows[self._n] = time_s, force_n, x_m, y_m
             self._n += 1
 
     def onset(
