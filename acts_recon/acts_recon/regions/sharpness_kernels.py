@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
 from acts_recon.images import force_of
 
@@ -169,7 +170,7 @@ def find_sharpness(
                 variance[i, j] = -1.0  # beyond the border: nothing is known
                 if first_row <= row < end_row and first_col <= col < end_col:
                     counts = float(image[row, col])
-                    value = min(counts, 1023.0) if counts > 0.0 else 0.0
+                    value = min(counts, float(COUNT_MAX)) if counts > 0.0 else 0.0
                     force[i, j] = force_of(value, force_n)
                     variance[i, j] = ((force_n[int(value) + 1] - force_n[int(value)]) * noise_counts) ** 2
                     if value > touch_counts:
