@@ -31,6 +31,33 @@ class Borders(NamedTuple):
         """The rectangle around each taxel; np.ndarray [shape=(rows * cols, 4), dtype=int32]."""
         return np.ascontiguousarray(self.rectangles[self.rectangle_of])
 
+    def labelled(self, pressed: NDArray[np.bool_]) -> tuple[NDArray[np.intp], int]:
+        """Number the contacts of a picture: pressed taxels that have a side or a corner in common, in one rectangle.
+
+        Parameters
+        ----------
+        pressed : np.ndarray [shape=(rows, cols), dtype=bool]
+
+        Returns
+        -------
+        labels : np.ndarray [shape=(rows, cols), dtype=intp]
+            The number of the contact of each taxel, from 1; 0: none.
+        number : int
+            How many there are.
+        """
+        # Imported here: it would delay each start of the node.
+        from scipy import ndimage
+
+        labels = np.zeros(pressed.shape, dtype=np.intp)
+        number = 0
+        for first_row, end_row, first_col, end_col in self.rectangles.tolist():
+            there = np.s_[first_row:end_row, first_col:end_col]
+            if pressed[there].any():
+                own, count = ndimage.label(pressed[there], structure=np.ones((3, 3)))
+                labels[there] = np.where(own > 0, own + number, 0)
+                number += int(count)
+        return labels, number
+
 
 def borders_of(rows: int, cols: int, layout: Layout | None = None) -> Borders:
     """The borders of a picture: without a layout it is one rectangle.

@@ -119,9 +119,9 @@ class OutlineTracer:
         self._geometry = geometry
         self._shape = geometry.rows, geometry.cols
         self._samples = PlacedSamples(geometry, layout)
-        borders = borders_of(geometry.rows, geometry.cols, layout)
-        self._rectangles: list[list[int]] = borders.rectangles.tolist()
-        self._rectangle_of = borders.rectangle_of.reshape(self._shape)
+        self._borders = borders_of(geometry.rows, geometry.cols, layout)
+        self._rectangles: list[list[int]] = self._borders.rectangles.tolist()
+        self._rectangle_of = self._borders.rectangle_of.reshape(self._shape)
         self._force_n = force_table(response or ForceResponse())
         self._touch_counts = touch_counts
         self._least_n = float(np.interp(touch_counts, np.arange(self._force_n.size), self._force_n))
@@ -245,16 +245,8 @@ class OutlineTracer:
         from scipy import ndimage
 
         pressed = image > self._touch_counts
-        labels = np.zeros(self._shape, dtype=np.intp)
-        number = 0
-        for first_row, end_row, first_col, end_col in self._rectangles:
-            there = np.s_[first_row:end_row, first_col:end_col]
-            if pressed[there].any():
-                own, count = ndimage.label(pressed[there], structure=np.ones((3, 3)))
-                labels[there] = np.where(own > 0, own + number, 0)
-                number += int(count)
         self._known = ndimage.maximum_filter(pressed, size=2 * _BESIDE + 1)
-        return labels, number
+        return self._borders.labelled(pressed)
 
     def _match(self, labels: NDArray[np.intp], number: int, time_s: float) -> list[tuple[int, _Track]]:
         """Give each contact of the image to the track that covered most of it; the others begin."""

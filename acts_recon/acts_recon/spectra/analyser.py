@@ -86,6 +86,7 @@ class SpectrumAnalyser:
     ) -> None:
         self.config = config or SpectraConfig()
         self._geometry = geometry
+        self._shape = geometry.rows, geometry.cols
         self._samples = PlacedSamples(geometry, layout)
         self._borders = borders_of(geometry.rows, geometry.cols, layout)
         self._force_n = force_table(response or ForceResponse())
@@ -144,7 +145,7 @@ class SpectrumAnalyser:
         number = np.bincount(window.places, minlength=size)
         mean = self._mean_of_touch(window, number)
         labels = self._labels(mean)
-        contacts = [np.flatnonzero((labels == label) & (number > 0)) for label in range(1, int(labels.max()) + 1)]
+        contacts = [np.flatnonzero((labels == label) & (number > 0)) for label in np.unique(labels[labels > 0])]
         found = [self._of(window, places, mean) for places in contacts]
         return tuple(sorted((one for one in found if one is not None), key=lambda one: -one.force_n))
 
@@ -164,22 +165,16 @@ class SpectrumAnalyser:
         """The number of the contact that each taxel belongs to, 0: none; shape (taxels,)."""
         from scipy import ndimage
 
-        shape = (self._geometry.rows, self._geometry.cols)
-        pressed = (mean > self._touch_counts).reshape(shape)
-        labels = np.zeros(shape, dtype=np.intp)
-        around = np.ones((3, 3))
+        pressed = mean > self._touch_counts
+        if self.config.spectra_of == "patches":
+            labels = np.where(pressed, self._borders.rectangle_of.astype(np.intp) + 1, 0).reshape(self._shape)
+        else:
+            labels, _ = self._borders.labelled(pressed.reshape(self._shape))
         for first_row, end_row, first_col, end_col in self._borders.rectangles.tolist():
-            there = np.s_[first_row:end_row, first_col:end_col]
-            if not pressed[there].any():
-                continue
-            if self.config.spectra_of == "patches":
-                own: NDArray[np.intp] = pressed[there].astype(np.intp)
-            else:
-                own = ndimage.label(pressed[there], structure=around)[0].astype(np.intp)
-            # What lies beside carries some of the force, too.
-            beside = ndimage.maximum_filter(own, size=3, mode="constant")
-            own = np.where(own > 0, own, beside)
-            labels[there] = np.where(own > 0, own + labels.max(), 0)
+            own = labels[first_row:end_row, first_col:end_col]
+            if own.any():
+                # What lies beside carries some of the force, too.
+                own[:] = np.where(own > 0, own, ndimage.maximum_filter(own, size=3, mode="constant"))
         return labels.ravel()
 
     def _of(self, window: _Window, places: NDArray[np.intp], mean: Array) -> Spectrum | None:

@@ -60,6 +60,22 @@ def test_rectangles_are_the_patches_and_every_taxel_without_skin(arranged: Layou
             ]
 
 
+def test_contacts_of_a_picture_are_numbered_from_one_rectangle_to_the_next() -> None:
+    first = GLOVE.patches[0].bounds
+    pressed = np.zeros((32, 32), dtype=np.bool_)
+    pressed[first[0], first[2]] = pressed[first[0] + 1, first[2] + 1] = True
+    pressed[first[1] - 1, first[2]] = True
+    for patch in GLOVE.patches[1:]:
+        pressed[patch.bounds[0] : patch.bounds[1], patch.bounds[2] : patch.bounds[3]] = True
+    labels, number = borders_of(32, 32, GLOVE).labelled(pressed)
+    assert number == len(GLOVE.patches) + 1
+    np.testing.assert_array_equal(labels > 0, pressed)
+    assert labels[first[0], first[2]] == labels[first[0] + 1, first[2] + 1] == 1
+    assert labels[first[1] - 1, first[2]] == 2
+    for label, patch in enumerate(GLOVE.patches[1:], 3):
+        assert (labels[patch.bounds[0] : patch.bounds[1], patch.bounds[2] : patch.bounds[3]] == label).all()
+
+
 @settings(deadline=None)
 @given(
     layouts(12, 9),
