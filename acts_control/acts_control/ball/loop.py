@@ -281,15 +281,15 @@ class ControlLoop:
             state = controller.state
             self.status = LoopStatus(
                 # The robot counts as stopped only once it follows no more.
-                state.phase if state.phase is not Phase.STOPPED else self.status.phase,
-                state.reason,
-                state.error_m,
-                tilt,
-                measured,
-                joints,
-                state.touch_age_s,
-                steps,
-                late,
+                phase=state.phase if state.phase is not Phase.STOPPED else self.status.phase,
+                reason=state.reason,
+                error_m=state.error_m,
+                tilt_commanded_rad=tilt,
+                tilt_measured_rad=measured,
+                joints=joints,
+                touch_age_s=state.touch_age_s,
+                steps=steps,
+                late_steps=late,
             )
             self._on_step(now_ns, measured)
         self._end_tilting(watch)

@@ -174,6 +174,11 @@ class HandSupervisor:
         """Count touch that has come and cannot be used; False."""
         return self._touch.refuse(why)
 
+    @property
+    def _refused(self) -> int:
+        """Messages of touch and answers of reflexes left out so far."""
+        return self._touch.refused + self._rule.refused
+
     def watch(self, now_s: float) -> None:
         """Judge the touch that has come, while the torque is off and there are no steps; `now_s` as in `touch` [s]."""
         age_s = self._touch.age_s(now_s)
@@ -181,7 +186,7 @@ class HandSupervisor:
             self.status,
             touch_age_s=age_s,
             is_stale=age_s > self._config.touch_stale_after_s,
-            refused=self._touch.refused + self._rule.refused,
+            refused=self._refused,
             refusal=self._touch.refusal,
             unfelt=self._touch.unfelt,
         )
@@ -216,17 +221,17 @@ class HandSupervisor:
             self._find_touch()
         self._was_stale = is_stale
         sensed = Sensed(
-            now_s,
-            dt_s,
-            self._state,
-            self._kinematics,
-            q,
-            goal,
-            np.array(reading.current_ma),
-            self._rule.step_rad_s,
-            {} if is_stale else self._touch.regions,
-            self._touch.is_new and not is_stale,
-            self._grasp.is_shaped,
+            time_s=now_s,
+            dt_s=dt_s,
+            state=self._state,
+            kinematics=self._kinematics,
+            q_rad=q,
+            goal_rad=goal,
+            current_ma=np.array(reading.current_ma),
+            step_rad_s=self._rule.step_rad_s,
+            regions={} if is_stale else self._touch.regions,
+            is_new=self._touch.is_new and not is_stale,
+            is_shaped=self._grasp.is_shaped,
         )
         self._touch.is_new = False
         asked, active = self._ask(sensed, is_stale)
@@ -235,16 +240,16 @@ class HandSupervisor:
         if self._rule.refused > refused_before:
             self._touch.refusal = f"a reflex asks for steps that are not finite; asking are {', '.join(active)}"
         self.status = SupervisorStatus(
-            self._state,
-            self._reason,
-            age_s,
-            is_stale,
-            tuple(active),
-            {name: reflex.events for name, reflex in self._reflexes.items()},
-            self.status.steps + 1,
-            self._touch.refused + self._rule.refused,
-            self._touch.refusal,
-            self._touch.unfelt,
+            state=self._state,
+            reason=self._reason,
+            touch_age_s=age_s,
+            is_stale=is_stale,
+            active=tuple(active),
+            events={name: reflex.events for name, reflex in self._reflexes.items()},
+            steps=self.status.steps + 1,
+            refused=self._refused,
+            refusal=self._touch.refusal,
+            unfelt=self._touch.unfelt,
         )
         return goal
 
