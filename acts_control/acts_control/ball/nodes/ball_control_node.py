@@ -88,6 +88,7 @@ class BallControlNode(Node):
         **node_arguments: Any,
     ) -> None:
         super().__init__("ball_control", **node_options(), **node_arguments)
+        # Made anew: a robot may have been entered into `ROBOTS` since this module was imported.
         settings: Any = declare(self, settings_class(), self._change)
         keep_system_clock(self, CLOCK_REASON)
         self._settings = settings
