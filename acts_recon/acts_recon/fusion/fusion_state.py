@@ -15,9 +15,6 @@ from acts_recon.images import LEAST_NOISE_COUNTS, Borders
 TILE = 4
 """Side of the tiles that have a velocity each [taxels]."""
 
-PATCH_COLUMNS = 7
-"""Numbers that `State` has of every patch."""
-
 UNKNOWN_COUNTS = 300.0
 """Sigma of a taxel that was never measured: about that of equally likely counts, ``1024 / sqrt(12)``."""
 
@@ -98,7 +95,7 @@ class State(NamedTuple):
         Logarithm of the scale of a patch's process noise, which follows the normalised innovations squared.
     frame_scale : np.ndarray [shape=(patches,), dtype=float32]
         Further scale, from the normalised innovations squared of the last frame alone; at least 1.
-    patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
+    patches : np.ndarray [shape=(patches, 7), dtype=int64]
         First row, row behind the last, first column, column behind the last, first tile, rows and columns of tiles.
     patch_of : np.ndarray [shape=(taxels,), dtype=uint16]
     most : np.ndarray [shape=(patches,), dtype=float32]
@@ -166,7 +163,7 @@ class Memory(NamedTuple):
     velocity : np.ndarray [shape=(tiles, 3), dtype=float32]
     scales : np.ndarray [shape=(9, patches), dtype=float32]
     learnt : np.ndarray [shape=(tiles, LEARNT_COLUMNS), dtype=float32]
-    patches : np.ndarray [shape=(patches, PATCH_COLUMNS), dtype=int64]
+    patches : np.ndarray [shape=(patches, 7), dtype=int64]
     owners : np.ndarray [shape=(2, taxels), dtype=uint16]
         Patch and tile of every taxel.
     """

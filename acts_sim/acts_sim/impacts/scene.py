@@ -32,13 +32,10 @@ class Scene:
         Counts at `SCENE_RATE_HZ`; free of the noise of a reading, which whoever samples them adds.
     collisions : tuple of Collision
         In the order of time, which counts from the first frame.
-    thrown : tuple of Throw
-        How the ball of each came.
     """
 
     frames: NDArray[np.uint16]
     collisions: tuple[Collision, ...]
-    thrown: tuple[Throw, ...]
 
     @property
     def duration_s(self) -> float:
@@ -78,18 +75,16 @@ def scene(
         raise SettingsError(f"bounces = {bounces}: allowed is 1 or more")
     before_s, after_s = (untouched_s,) * 2 if untouched_s is not None else rng.uniform(*_UNTOUCHED_S, 2)
     collisions: list[Collision] = []
-    throws: list[Throw] = []
     coming: Throw | None = throw
     at_s = float(before_s)
     while coming is not None and len(collisions) < bounces and (not collisions or _is_on(skin, coming)):
-        throws.append(coming)
         collisions.append(collide(ball, coming, at_s))
         coming, at_s = collisions[-1].after, collisions[-1].after_s
     count = int((collisions[-1].time_s[-1] + after_s) * SCENE_RATE_HZ) + 1
     frames = np.zeros((count, skin.geometry.rows, skin.geometry.cols), dtype=np.uint16)
     for collision in collisions:
         _draw(frames, skin, ball, collision)
-    return Scene(frames, tuple(collisions), tuple(throws))
+    return Scene(frames, tuple(collisions))
 
 
 def _is_on(skin: ContactModel, throw: Throw) -> bool:

@@ -35,13 +35,12 @@ class Board:
         The port to open.
     process : subprocess.Popen
         Its process.
-    epoch_realtime_ns, epoch_monotonic_ns : int
-        The host's clocks at board time 0.
+    epoch_monotonic_ns : int
+        The host's clock at board time 0.
     """
 
     link: Path
     process: subprocess.Popen[bytes]
-    epoch_realtime_ns: int
     epoch_monotonic_ns: int
 
 
@@ -84,8 +83,7 @@ def virtual_board(folder: Path, *options: str) -> Iterator[Board]:
         line = process.stdout.readline() if ready else b""
         if not line:
             raise LaunchError(f"the virtual board does not start: {_log_end(folder / 'virtual_board.log')}")
-        start = json.loads(line)
-        yield Board(link, process, start["epoch_realtime_ns"], start["epoch_monotonic_ns"])
+        yield Board(link, process, json.loads(line)["epoch_monotonic_ns"])
 
 
 def driver(folder: Path, link: Path, *parameters: str) -> Running:
