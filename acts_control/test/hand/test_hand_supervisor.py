@@ -40,12 +40,6 @@ postures: {open: {}, pregrasp: {left: 0.1, right: 0.1}}
 """
 
 
-def a_hand_of_all_reflexes() -> RigidHand:
-    hand = RigidHand(*make_reflexes(" ".join(REFLEXES), HandReflexesSettings()).items(), grip_settle_s=0.02)
-    hand.supervisor.restart(recovered=False)
-    return hand
-
-
 def test_it_stands_still_until_it_is_told_what_to_do() -> None:
     hand = a_hand()
     assert hand.step([], steps=50) is HandState.STOPPED

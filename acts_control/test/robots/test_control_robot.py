@@ -21,9 +21,8 @@ from acts_msgs.msg import BalanceStatus
 
 pytestmark = pytest.mark.slow
 
-CONNECTING, HOMING = BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_HOMING
-WAITING, BALANCING = BalanceStatus.STATE_WAITING, BalanceStatus.STATE_BALANCING
-STOPPED = BalanceStatus.STATE_STOPPED
+CONNECTING, WAITING = BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_WAITING
+BALANCING, STOPPED = BalanceStatus.STATE_BALANCING, BalanceStatus.STATE_STOPPED
 
 # The ball of these tests rolls on published tilts, on a plate that turns about the ball and without resistance; and the
 # machine may be busy, so touch and readings may be older than in earnest.
