@@ -24,7 +24,8 @@ class FrameOrder:
     """Follows a stream by the numbers and times of its frames.
 
     A number that goes back is of a board that began anew. Where numbers go on then from before, none began: frames of
-    two sources come in turn, as where two nodes publish on the same topic.
+    two sources come in turn, as where two nodes publish on the same topic. `acts_core.runtime.SequenceNumbers` looks at
+    numbers in much the same way, but to count what is missing.
 
     Attributes
     ----------

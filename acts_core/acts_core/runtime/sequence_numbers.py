@@ -30,7 +30,8 @@ class SequenceNumbers:
     """Counts what is missing in a stream whose messages are numbered, modulo 2^32.
 
     A number that goes back is a source that began anew, not a loss. Where numbers jump ahead and then go on from before
-    the jump, nothing was lost there: two sources publish, or a message was overtaken.
+    the jump, nothing was lost there: two sources publish, or a message was overtaken. Whether a stream of frames begins
+    anew, `acts_recon.frame_order.FrameOrder` decides.
 
     Attributes
     ----------

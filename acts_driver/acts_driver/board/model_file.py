@@ -45,7 +45,7 @@ def load_model(path: Path) -> BoardModel:
     raise BoardError(f"{path}: no model for a board; {needed}")
 
 
-class ModelFile:
+class BoardModelFile:
     """A model's file, read on a thread of its own when it is first needed: a disk or network may block for ever.
 
     Parameters

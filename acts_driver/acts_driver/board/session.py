@@ -17,7 +17,7 @@ from acts_core.settings import is_given
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
 from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
 from acts_driver.board.layout import BoardLayout
-from acts_driver.board.model_file import ModelFile
+from acts_driver.board.model_file import BoardModelFile
 from acts_driver.board.parameters import BoardParameters
 
 FIRMWARE = (0, 1)
@@ -183,7 +183,7 @@ class BoardSession:
             self._change(parameters, model)
         self.wake()
 
-    def _change(self, parameters: BoardParameters, model: ModelFile | None) -> None:
+    def _change(self, parameters: BoardParameters, model: BoardModelFile | None) -> None:
         before = self._parameters, self._model
         try:
             self._check_that_it_listens()
@@ -334,8 +334,8 @@ class BoardSession:
         """The model that the parameters ask for, where there is one and it has been read."""
         return None if self._model is None else self._model.model()
 
-    def _file_of(self, parameters: BoardParameters) -> ModelFile | None:
-        return ModelFile(Path(parameters.model), self.wake) if is_given(parameters.model) else None
+    def _file_of(self, parameters: BoardParameters) -> BoardModelFile | None:
+        return BoardModelFile(Path(parameters.model), self.wake) if is_given(parameters.model) else None
 
     def _mismatch(self, state: BoardState) -> str:
         settings = state.settings

@@ -7,7 +7,7 @@ In come commands and programs; out come the robot's state in every cycle, and it
 """
 
 from acts_sim.ur.commands import COMMANDS, MOTION_COMMANDS
-from acts_sim.ur.config import ACCELERATION_LIMIT_RAD_S2, CYCLE_HZ, VERSION, ControllerConfig
+from acts_sim.ur.config import ACCELERATION_LIMIT_RAD_S2, CYCLE_HZ, VERSION, UrControllerConfig
 from acts_sim.ur.controller import COMMAND_REGISTERS, Controller, RobotMode, RuntimeState, SafetyMode
 from acts_sim.ur.joints import JointState, Servo
 from acts_sim.ur.program import ControlProgram
@@ -21,10 +21,10 @@ __all__ = [
     "VERSION",
     "ControlProgram",
     "Controller",
-    "ControllerConfig",
     "JointState",
     "RobotMode",
     "RuntimeState",
     "SafetyMode",
     "Servo",
+    "UrControllerConfig",
 ]

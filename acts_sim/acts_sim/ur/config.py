@@ -30,7 +30,7 @@ ACCELERATION_LIMIT_RAD_S2 = 40.0
 
 
 @dataclass(frozen=True)
-class ControllerConfig:
+class UrControllerConfig:
     """How the simulated robot behaves."""
 
     q0_rad: tuple[float, ...] = setting(

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.robots import ur5e
-from acts_sim.ur.config import CYCLE_S, POSITION_LIMIT_RAD, ControllerConfig
+from acts_sim.ur.config import CYCLE_S, POSITION_LIMIT_RAD, UrControllerConfig
 from acts_sim.ur.joints import Brake, JointState, Motion, Rest
 from acts_sim.ur.pose import Rows, pose_from_rows, speed_between, transform_from_pose
 from acts_sim.ur.rtde import INPUT_TYPES, OutputImage, Value
@@ -115,13 +115,13 @@ class Controller:
 
     Parameters
     ----------
-    config : ControllerConfig
+    config : UrControllerConfig
         Settings of the robot.
     log : callable
         Called with a line of text for the user.
     """
 
-    def __init__(self, config: ControllerConfig, log: Callable[[str], None]) -> None:
+    def __init__(self, config: UrControllerConfig, log: Callable[[str], None]) -> None:
         self.config = config
         self.log = log
         self.cycles = 0

@@ -28,7 +28,7 @@ from acts_sim.shared import (
     own_words,
     settings_from,
 )
-from acts_sim.ur import Controller, ControllerConfig
+from acts_sim.ur import Controller, UrControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
@@ -36,7 +36,7 @@ _LARGEST_PORT = 65535
 
 
 @dataclass(frozen=True)
-class ControllerSettings(RealtimeConfig, ControllerConfig):
+class ControllerSettings(RealtimeConfig, UrControllerConfig):
     """Options of the command line: settings of the robot, and of the scheduling of its process."""
 
     def __post_init__(self) -> None:

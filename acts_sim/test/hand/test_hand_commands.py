@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from acts_core.errors import SettingsError
 from acts_sim.hand import STEP_S, HandTruth, HandWorld, HandWorldConfig, TruthFollower, carry_out, row_width
 from acts_sim.hand.commands import COMMANDS
-from acts_sim.hand.process.loop import STEP_NS, HandLoop
+from acts_sim.hand.process.loop import STEP_NS, HandWorldLoop
 from acts_sim.shared import TimedRingReader, TimedRingWriter
 
 pytestmark = pytest.mark.slow
@@ -215,7 +215,7 @@ def test_the_loop_writes_each_step_ahead_of_the_clock(tmp_path: Path, monkeypatc
         TimedRingWriter(tmp_path / "field", 1024) as field,
         TimedRingWriter(tmp_path / "truth", row_width(13)) as truth,
     ):
-        loop = HandLoop(world, field, truth, 4_000_000)
+        loop = HandWorldLoop(world, field, truth, 4_000_000)
         follower = TruthFollower(tmp_path / "truth")
         for _ in range(5):
             loop.step(STEP_S)

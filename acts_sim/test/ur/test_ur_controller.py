@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.robots import ur5e
-from acts_sim.ur import COMMANDS, Controller, ControllerConfig, ControlProgram, RobotMode, RuntimeState, SafetyMode
+from acts_sim.ur import COMMANDS, Controller, ControlProgram, RobotMode, RuntimeState, SafetyMode, UrControllerConfig
 from acts_sim.ur.ports import ScriptSession, dashboard, hooks
 from acts_sim.ur.pose import transform_from_pose
 
@@ -26,7 +26,7 @@ class Robot:
     def __init__(self, offset: int = 0) -> None:
         self.log: list[str] = []
         self.offset = offset
-        self.controller = Controller(ControllerConfig(start_delay_s=0.01, unlock_after_s=1.0), self.log.append)
+        self.controller = Controller(UrControllerConfig(start_delay_s=0.01, unlock_after_s=1.0), self.log.append)
         self.start()
 
     def start(self) -> None:

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import PacketError
-from acts_sim.ur import Controller, ControllerConfig
+from acts_sim.ur import Controller, UrControllerConfig
 from acts_sim.ur.ports import RtdePort
 from acts_sim.ur.ports.session import RtdeSession
 from acts_sim.ur.rtde import (
@@ -108,7 +108,7 @@ def test_output_package_holds_the_values_in_the_order_asked_for(names: list[str]
 
 
 def make() -> tuple[Controller, RtdePort]:
-    controller = Controller(ControllerConfig(), lambda text: None)
+    controller = Controller(UrControllerConfig(), lambda text: None)
     return controller, RtdePort(controller)
 
 

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_sim.shared import LineSession
-from acts_sim.ur import Controller, ControllerConfig, RuntimeState
+from acts_sim.ur import Controller, RuntimeState, UrControllerConfig
 from acts_sim.ur.ports import ScriptSession
 from acts_sim.ur.ports.script import ScriptReader
 from acts_sim.ur.pose import pose_from_transform, transform_from_pose
@@ -52,7 +52,7 @@ def test_programs_are_found_in_any_pieces(before: bytes, cuts: list[int]) -> Non
 
 def test_control_script_is_started_with_its_offset_and_others_are_refused() -> None:
     log: list[str] = []
-    controller = Controller(ControllerConfig(start_delay_s=0.002), log.append)
+    controller = Controller(UrControllerConfig(start_delay_s=0.002), log.append)
     session = ScriptSession(controller)
     session.receive(b"def dance():\n  movej([0,0,0,0,0,0])\nend\n")
     controller.tick()

@@ -20,7 +20,7 @@ _LATE_NS = 1_000_000
 
 
 @dataclass(frozen=True)
-class LoopStatistics:
+class HandWorldStatistics:
     """Counters of a loop since its start.
 
     Attributes
@@ -37,7 +37,7 @@ class LoopStatistics:
     work_s: float = 0.0
 
 
-class HandLoop:
+class HandWorldLoop:
     """Steps a world at each call, every 2 ms, and writes each step with its time.
 
     Parameters
@@ -52,12 +52,12 @@ class HandLoop:
 
     Attributes
     ----------
-    statistics : LoopStatistics
+    statistics : HandWorldStatistics
         Replaced by a new object after each step.
     """
 
     def __init__(self, world: HandWorld, field: TimedRingWriter, truth: TimedRingWriter, lead_ns: int) -> None:
-        self.statistics = LoopStatistics()
+        self.statistics = HandWorldStatistics()
         self._world = world
         self._field = field
         self._truth = truth
@@ -77,7 +77,7 @@ class HandLoop:
         self._world.step()
         self._field.write(self._world_ns, self._world.counts)
         self._truth.write(self._world_ns, self._world.truth_row())
-        self.statistics = LoopStatistics(
+        self.statistics = HandWorldStatistics(
             before.steps + 1,
             before.late + (_LATE_NS < behind_ns <= LONGEST_BEHIND_NS),
             before.skipped + skipped,

@@ -19,7 +19,7 @@ from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
-from acts_sim.hand.process.loop import HandLoop
+from acts_sim.hand.process.loop import HandWorldLoop
 from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, own_words, settings_from
 
 TRUTH_SLOTS = 8192
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
         patches = world.layout.patches
         field = stack.enter_context(TimedRingWriter(options.field_ring, len(world.forces_n)))
         truth = stack.enter_context(TimedRingWriter(options.truth_ring, row_width(len(patches)), TRUTH_SLOTS))
-        loop = HandLoop(world, field, truth, round(options.lead_ms * 1e6))
+        loop = HandWorldLoop(world, field, truth, round(options.lead_ms * 1e6))
         port = stack.enter_context(
             contextlib.closing(BusPort(world.bus, loop.step, STEP_S, options.link, baud=options.baud))
         )
@@ -94,7 +94,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
 _OF_THE_PROCESS = ("unplug", "plug_in", "state")
 
 
-def answer(world: HandWorld, loop: HandLoop, port: BusPort, line: str) -> str:
+def answer(world: HandWorld, loop: HandWorldLoop, port: BusPort, line: str) -> str:
     """Execute a line of the control socket and return ``ok``, a JSON object for ``state``, or ``error: ...``."""
     if line == "state":
         return json.dumps(
