@@ -24,7 +24,7 @@ from acts_core.errors import LaunchError
 from acts_ros.processes import packages
 from acts_tools.launch.evaluate import evaluate
 from acts_tools.two_machines.cable import ADDRESSES
-from acts_tools.two_machines.ear import Ear, ear
+from acts_tools.two_machines.listener import Listener, listener
 from acts_tools.two_machines.machines import Machine, TwoMachines, two_machines
 
 pytestmark = pytest.mark.slow
@@ -72,7 +72,7 @@ class Running:
 
     machines: TwoMachines
     folder: Path
-    near: Ear
+    near: Listener
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +88,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
         slow = shipped_parameters_and(folder, "ball_balancing", "/plate/driver", "{rate_cap_hz: 250}")
         words = [*launch, f"run_dir:={folder / 'run'}", f"params_file:={slow}"]
         stack.enter_context(machines.near.running(words, DOMAIN_ID, folder / "launch.txt", HERE))
-        near = stack.enter_context(ear(machines.near, [CONTACT, TRUTH], DOMAIN_ID, folder / "near.txt", HERE))
+        near = stack.enter_context(listener(machines.near, [CONTACT, TRUTH], DOMAIN_ID, folder / "near.txt", HERE))
         try:
             near.wait_for(
                 lambda report: report.received(CONTACT) > 0 and report.received(TRUTH) > 0, START_S, "the simulation"
@@ -138,7 +138,7 @@ def test_who_names_this_machine_as_its_peer_gets_nothing(running: Running) -> No
     profile.write_text(INTRUDER)
     reach = {RANGE: "SYSTEM_DEFAULT", PROFILE: str(profile)}
     with (
-        ear(machines.far, [CONTACT, TRUTH, OPEN_TOPIC], DOMAIN_ID, folder / "far.txt", reach) as far,
+        listener(machines.far, [CONTACT, TRUTH, OPEN_TOPIC], DOMAIN_ID, folder / "far.txt", reach) as far,
         # A node that only has LOCALHOST, as all had: the other machine gets it, so it would get the others as well.
         machines.near.running([sys.executable, "-c", TALKER], DOMAIN_ID, folder / "open.txt", HERE),
     ):

@@ -20,7 +20,7 @@ from launch_support import shipped_parameters_and
 
 from acts_core.errors import LaunchError
 from acts_tools.two_machines.conditions import Conditions
-from acts_tools.two_machines.ear import Ear, Report, ear
+from acts_tools.two_machines.listener import Listener, Report, listener
 from acts_tools.two_machines.machines import TwoMachines, two_machines
 
 pytestmark = pytest.mark.slow
@@ -43,7 +43,7 @@ class Touch:
     """Board, driver and reconstruction on the near machine; another reconstruction and a listener on the far one."""
 
     machines: TwoMachines
-    far: Ear
+    far: Listener
 
     def on_near_machine(self, *words: str) -> int:
         """Run an acts command there; its exit code."""
@@ -79,7 +79,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Touch]:
             pytest.skip(str(error))
         stack.enter_context(machines.near.running(launch, DOMAIN_ID, folder / "launch.txt"))
         stack.enter_context(machines.far.running(node, DOMAIN_ID, folder / "reconstruction.txt"))
-        first = stack.enter_context(ear(machines.far, [CONTACT, "/far/contact"], DOMAIN_ID, folder / "first.txt"))
+        first = stack.enter_context(listener(machines.far, [CONTACT, "/far/contact"], DOMAIN_ID, folder / "first.txt"))
         touch = Touch(machines, first)
         try:
             first.wait_for(
@@ -90,7 +90,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Touch]:
             while touch.on_near_machine("driver", "tare") != 0:
                 assert time.monotonic() < deadline_s, "no tare"
             # From here on everything that is kept has been published: this one is late for it.
-            touch.far = stack.enter_context(ear(machines.far, TOPICS, DOMAIN_ID, folder / "far.txt"))
+            touch.far = stack.enter_context(listener(machines.far, TOPICS, DOMAIN_ID, folder / "far.txt"))
             touch.far.wait_for(lambda report: report.received(CONTACT) > 0, DEADLINE_S, "contacts")
             yield touch
         finally:

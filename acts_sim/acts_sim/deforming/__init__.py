@@ -7,6 +7,6 @@ In comes an object; out come full frames at a high rate, and the outline at any 
 """
 
 from acts_sim.deforming.bodies import BODIES, Body, body_named
-from acts_sim.deforming.meeting import Meeting, meeting
+from acts_sim.deforming.soft_contact import SoftContact, soft_contact
 
-__all__ = ["BODIES", "Body", "Meeting", "body_named", "meeting"]
+__all__ = ["BODIES", "Body", "SoftContact", "body_named", "soft_contact"]

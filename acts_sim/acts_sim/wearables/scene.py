@@ -16,8 +16,8 @@ from acts_core.registry import named
 from acts_core.skin import Layout, layout
 from acts_sim.pressing import ContactModel, FoamConfig
 from acts_sim.wearables.contacts import Contact
-from acts_sim.wearables.happenings import SCENES, SceneKind
 from acts_sim.wearables.resting_skin import RestingSkin
+from acts_sim.wearables.scenes import SCENES, SceneKind
 
 WORN_RATE_HZ = 4000.0
 """Frames per second of a scene; between them what is sampled is interpolated linearly."""

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_sim.deforming import BODIES, Body, Meeting, body_named, meeting
+from acts_sim.deforming import BODIES, Body, SoftContact, body_named, soft_contact
 from acts_sim.impacts import SCENE_RATE_HZ
 from acts_sim.pressing import skin_of
 
 
-def met(name: str, seed: int = 1) -> Meeting:
+def met(name: str, seed: int = 1) -> SoftContact:
     rng = np.random.default_rng(seed)
-    return meeting(skin_of(rng), body_named(name), rng)
+    return soft_contact(skin_of(rng), body_named(name), rng)
 
 
 def area_m2(corners: np.ndarray) -> float:
@@ -55,7 +55,7 @@ def test_there_is_pressure_inside_of_the_outline_and_none_outside(body: Body) ->
     assert (outside == 0).all()
 
 
-def test_the_same_seed_is_the_same_meeting() -> None:
+def test_the_same_seed_is_the_same_contact() -> None:
     assert np.array_equal(met("block", 3).frames, met("block", 3).frames)
     assert met("block", 3).angle_rad != met("block", 4).angle_rad
     with pytest.raises(SettingsError, match="known are tennis, block, balloon"):

@@ -12,7 +12,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_sim.pressing import ContactModel, FoamConfig
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, RestConfig, RestingSkin, worn_scene
-from acts_sim.wearables.happenings import register
+from acts_sim.wearables.scenes import register
 
 
 @pytest.mark.parametrize("name", [name for name in SCENES if name not in ("ball_catch", "footstep")])

@@ -16,7 +16,7 @@ from acts_tools.bench.cases.link import CONTACT, _Link
 from acts_tools.listen.arrivals import Interval
 from acts_tools.two_machines.cable import Cable
 from acts_tools.two_machines.conditions import Conditions
-from acts_tools.two_machines.ear import Report
+from acts_tools.two_machines.listener import Report
 
 
 @pytest.fixture

@@ -55,7 +55,7 @@ R = TypeVar("R")
 _PIXELS = {"mono16": "u2", "mono8": "u1", "32FC1": "f4"}
 
 
-class _Told(NamedTuple):
+class _Topic(NamedTuple):
     """Of a topic on which a node says something besides touch.
 
     `kind` is its type, `read` what is taken of a message, `place` where in `Frame` that goes.
@@ -67,15 +67,15 @@ class _Told(NamedTuple):
     profile: QoSProfile = qos.STATE
 
 
-_TOLD = {
-    "hand/status": _Told(HandStatus, hand_state, "hand"),
-    "joint_states": _Told(JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
-    "ball/state": _Told(BallState, ball_place, "ball"),
-    "ball/reference": _Told(BallReference, ball_reference, "ball"),
-    "ball/status": _Told(BalanceStatus, balance_state, "ball"),
+_TOPICS = {
+    "hand/status": _Topic(HandStatus, hand_state, "hand"),
+    "joint_states": _Topic(JointState, lambda message: {"joints": joint_angles(message)}, "hand"),
+    "ball/state": _Topic(BallState, ball_place, "ball"),
+    "ball/reference": _Topic(BallReference, ball_reference, "ball"),
+    "ball/status": _Topic(BalanceStatus, balance_state, "ball"),
     # Of both the latter, which knows the names.
-    "board_object": _Told(ObjectClass, known_object, "object", qos.STREAM),
-    "object": _Told(ObjectClass, known_object, "object"),
+    "board_object": _Topic(ObjectClass, known_object, "object", qos.STREAM),
+    "object": _Topic(ObjectClass, known_object, "object"),
 }
 
 # All of them come several times a second; as of the diagnostics on the page.
@@ -100,14 +100,14 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
-        # Of each topic of `_TOLD`, what was said last, and when by the monotonic clock [s].
+        # Of each topic of `_TOPICS`, what was said last, and when by the monotonic clock [s].
         self._told: dict[str, tuple[float, dict[str, Any]]] = {}
         self._is_teller_gone = False
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
         )
-        for topic, (kind, _, _, profile) in _TOLD.items():
+        for topic, (kind, _, _, profile) in _TOPICS.items():
             if topic != "object":
                 self._polled[topic] = node.create_polled_subscription(kind, f"{namespace}/{topic}", profile, depth=1)
         self._outlines = OutlineTopic(node, namespace) if with_outlines else None
@@ -145,13 +145,13 @@ class SkinTopics:
         samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
         contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
-        told = {topic: message for topic in _TOLD if (message := self._newest(topic)) is not None}
+        told = {topic: message for topic in _TOPICS if (message := self._newest(topic)) is not None}
         nothing_came = not told and all(one is None for one in (*images.values(), contacts, regions))
         if not samples and nothing_came and not self._is_teller_gone:
             return None
         self._is_teller_gone = False
         now_s = time.monotonic()
-        self._told |= {topic: (now_s, _TOLD[topic].read(message)) for topic, message in told.items()}
+        self._told |= {topic: (now_s, _TOPICS[topic].read(message)) for topic, message in told.items()}
         old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
@@ -178,8 +178,8 @@ class SkinTopics:
         """What is known of a hand, a ball or an object."""
         return {
             key: value
-            for topic in _TOLD
-            if _TOLD[topic].place == place and topic in self._told
+            for topic in _TOPICS
+            if _TOPICS[topic].place == place and topic in self._told
             for key, value in self._told[topic][1].items()
         }
 
@@ -193,7 +193,7 @@ class SkinTopics:
             return
         if present is not None:
             self._node.destroy_polled_subscription(present)
-        create = self._node.create_polled_subscription if what in _TOLD else self._node.create_raw_polled_subscription
+        create = self._node.create_polled_subscription if what in _TOPICS else self._node.create_raw_polled_subscription
         self._polled[what] = create(kind, topic, profile, depth=1)
 
     def _newest(self, what: str) -> Any:

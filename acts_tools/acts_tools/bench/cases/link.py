@@ -20,7 +20,7 @@ from acts_core.errors import LaunchError
 from acts_tools.bench.result import Figure, Result
 from acts_tools.bench.workbench import Workbench
 from acts_tools.two_machines.conditions import Conditions
-from acts_tools.two_machines.ear import EVERY_S, Ear, Report, ear
+from acts_tools.two_machines.listener import EVERY_S, Listener, Report, listener
 from acts_tools.two_machines.machines import TwoMachines, two_machines
 
 CONTACT = "/plate/contact"
@@ -51,13 +51,13 @@ class _Link:
 
     def measure_traffic(self) -> None:
         """Measure the traffic of every topic by itself, and that of the middleware without any."""
-        with ear(self._machines.far, ["/plate/board"], self._domain_id, self._log("idle")) as idle:
+        with listener(self._machines.far, ["/plate/board"], self._domain_id, self._log("idle")) as idle:
             idle.wait_for(lambda report: report.received("/plate/board") > 0, _START_TIMEOUT_S, "the board")
             idle_kb_s = self._kilobytes_per_second()
         self.figures.append(Figure("idle_kb_s", "no 1 kHz topic, on the cable", idle_kb_s, "kB/s"))
         for topic in TOPICS:
             name = f"/plate/{topic}"
-            with ear(self._machines.far, [name], self._domain_id, self._log(topic)) as heard:
+            with listener(self._machines.far, [name], self._domain_id, self._log(topic)) as heard:
                 begin = heard.wait_for(partial(_flows, name), _START_TIMEOUT_S, name)
                 begin_s = time.monotonic()
                 kb_s = self._kilobytes_per_second() - idle_kb_s
@@ -70,7 +70,7 @@ class _Link:
 
     def measure_cables(self) -> None:
         """Measure contacts over a good cable and bad cables, and after interruptions."""
-        with ear(self._machines.far, [CONTACT], self._domain_id, self._log("cables")) as heard:
+        with listener(self._machines.far, [CONTACT], self._domain_id, self._log("cables")) as heard:
             heard.wait_for(partial(_flows, CONTACT), _START_TIMEOUT_S, "contacts")
             for name, conditions in CABLES.items():
                 self._machines.set_conditions(conditions)
@@ -80,7 +80,7 @@ class _Link:
 
     def measure_image(self) -> None:
         """Measure the image for viewers over a lossy cable: large and reliable, the worst case."""
-        with ear(self._machines.far, [CONTACT, "/plate/image"], self._domain_id, self._log("picture")) as heard:
+        with listener(self._machines.far, [CONTACT, "/plate/image"], self._domain_id, self._log("picture")) as heard:
             heard.wait_for(
                 lambda report: min(report.received(CONTACT), report.received("/plate/image")) > 0, _TIMEOUT_S, "images"
             )
@@ -105,7 +105,7 @@ class _Link:
                 back_s = None
             self.figures.append(Figure("image_back_s", "    image again after the loss has ended", back_s, "s"))
 
-    def _measure_cut(self, heard: Ear, cut_s: float) -> None:
+    def _measure_cut(self, heard: Listener, cut_s: float) -> None:
         self._machines.set_conditions(Conditions(cut=True))
         self._workbench.sleep(cut_s)
         silent = heard.collect(1, _TIMEOUT_S)[-1]
@@ -133,7 +133,7 @@ class _Link:
             Figure(f"{key}.largest_age_ms", "    largest", max(largest_ms, default=None), "ms"),
         ]
 
-    def _collect(self, heard: Ear) -> list[Report]:
+    def _collect(self, heard: Listener) -> list[Report]:
         self._workbench.check_stop()
         return heard.collect(max(2, round(self._workbench.seconds / EVERY_S)), _TIMEOUT_S + self._workbench.seconds)
 

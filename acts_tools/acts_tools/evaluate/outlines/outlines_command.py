@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.array import ArrayGeometry
-from acts_sim.deforming import BODIES, Meeting, body_named, meeting
+from acts_sim.deforming import BODIES, SoftContact, body_named, soft_contact
 from acts_sim.impacts import SCENE_RATE_HZ
 from acts_sim.pressing import skin_of
 from acts_tools.evaluate import report
@@ -85,7 +85,7 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _traced_by_all(
-    shown: Meeting, m: int, noise_counts: float, seed: int
+    shown: SoftContact, m: int, noise_counts: float, seed: int
 ) -> Iterator[tuple[tuple[str, str], list[Traced]]]:
     """A touch of a body as each contender tells its outline: method and scheme, and what they have traced."""
     scheme_of_paper = tracing.PAPER_SCHEMES[shown.body.name]
@@ -94,10 +94,10 @@ def _traced_by_all(
         yield ("acts", scheme), tracing.ours(shown, m, noise_counts, seed, scheme)
 
 
-def touch_of(name: str, seed: int, number: int) -> Meeting:
+def touch_of(name: str, seed: int, number: int) -> SoftContact:
     """A touch of a body, by its number."""
     rng = np.random.default_rng([seed, number])
-    return meeting(skin_of(rng), body_named(name), rng)
+    return soft_contact(skin_of(rng), body_named(name), rng)
 
 
 def scores_of(touches: Sequence[Sequence[Traced]], m: int) -> dict[str, Any]:

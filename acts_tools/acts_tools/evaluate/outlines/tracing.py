@@ -15,7 +15,7 @@ from acts_core.array import ArrayGeometry
 from acts_recon.fusion import known_noise
 from acts_recon.outlines import Outline, area, contours, mean_distance_m
 from acts_recon.settings import ReconstructionSettings
-from acts_sim.deforming import Meeting
+from acts_sim.deforming import SoftContact
 from acts_sim.impacts import SCENE_RATE_HZ
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, frames_of
@@ -55,7 +55,7 @@ class Traced:
         return mean_distance_m(self.outline_m, self.truth_m) / pitch_m
 
 
-def our_outlines(shown: Meeting, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Outline]:
+def our_outlines(shown: SoftContact, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Outline]:
     """All that `OutlineTracer` tells of a scene."""
     settings = ReconstructionSettings(touch_counts=TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
     recovery = settings.recovery()
@@ -67,7 +67,7 @@ def our_outlines(shown: Meeting, m: int, noise_counts: float, seed: int, scheme:
     return found
 
 
-def ours(shown: Meeting, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Traced]:
+def ours(shown: SoftContact, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Traced]:
     """Of each frame in which the body touches, the largest outline that is told."""
     largest: dict[float, Outline] = {}
     for outline in our_outlines(shown, m, noise_counts, seed, scheme):
@@ -84,7 +84,7 @@ def ours(shown: Meeting, m: int, noise_counts: float, seed: int, scheme: str = S
     return traced
 
 
-def paper(shown: Meeting, m: int, noise_counts: float, seed: int) -> list[Traced]:
+def paper(shown: SoftContact, m: int, noise_counts: float, seed: int) -> list[Traced]:
     """The paper's: each frame recovered by itself, and the boundary of its pressed taxels, through their middles.
 
     Of the balloon it is a circle as large as the pressed area.

@@ -25,7 +25,7 @@ _MIDDLE_M = 0.01
 
 
 @dataclass(frozen=True)
-class Meeting:
+class SoftContact:
     """A recording of one body, and the truth.
 
     Attributes
@@ -72,7 +72,7 @@ class Meeting:
         return turned + np.array([self.x_m, self.y_m])
 
 
-def meeting(skin: ContactModel, body: Body, rng: np.random.Generator) -> Meeting:
+def soft_contact(skin: ContactModel, body: Body, rng: np.random.Generator) -> SoftContact:
     """Let a body meet a skin once, somewhere near its middle.
 
     Parameters
@@ -87,7 +87,9 @@ def meeting(skin: ContactModel, body: Body, rng: np.random.Generator) -> Meeting
     x_m, y_m = rng.uniform(-_MIDDLE_M, _MIDDLE_M, 2).tolist()
     count = int((before_s + body.touch_s + after_s) * SCENE_RATE_HZ) + 1
     frames = np.zeros((count, skin.geometry.rows, skin.geometry.cols), dtype=np.uint16)
-    shown = Meeting(frames, body, before_s, x_m, y_m, float(rng.uniform(0, 2 * np.pi)), float(rng.uniform(0.8, 1.1)))
+    shown = SoftContact(
+        frames, body, before_s, x_m, y_m, float(rng.uniform(0, 2 * np.pi)), float(rng.uniform(0.8, 1.1))
+    )
     c, s = np.cos(shown.angle_rad), np.sin(shown.angle_rad)
     for number in range(int(before_s * SCENE_RATE_HZ), int(shown.end_s * SCENE_RATE_HZ) + 1):
         depth_m = shown.depth_m(number / SCENE_RATE_HZ)

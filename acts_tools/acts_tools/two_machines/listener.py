@@ -49,7 +49,7 @@ class Report:
         return self.topics[topic].total_lost or 0 if topic in self.topics else 0
 
 
-class Ear:
+class Listener:
     """Reads the reports of a running `acts listen`.
 
     Parameters
@@ -114,13 +114,13 @@ def _parse(line: bytes) -> Report:
 
 
 @contextmanager
-def ear(
+def listener(
     machine: Machine,
     topics: Sequence[str],
     domain_id: int,
     log: Path,
     variables: Mapping[str, str] = MappingProxyType({}),
-) -> Iterator[Ear]:
+) -> Iterator[Listener]:
     """Listen on a machine for the length of a block, with additional environment variables."""
     words = [sys.executable, "-m", "acts_tools", "listen", "--json", "--every", str(EVERY_S), *topics]
     with machine.running(words, domain_id, log, variables) as process:
@@ -129,4 +129,4 @@ def ear(
             if process.poll() is not None:
                 raise LaunchError(f"`acts listen` ended early: {log.read_text(errors='replace')[-500:]}")
 
-        yield Ear(log, check)
+        yield Listener(log, check)
