@@ -176,17 +176,17 @@ def roll(
 @kernel
 def press(
     counts: NDArray[np.float64],
-    pitch: float,
-    row_pitch: float,
-    x: float,
-    y: float,
-    radius: float,
-    depth: float,
-    stiffness: float,
-    spread: float,
-    full_scale: float,
-    dead: float,
-    half: float,
+    pitch_m: float,
+    row_pitch_m: float,
+    x_m: float,
+    y_m: float,
+    radius_m: float,
+    depth_m: float,
+    stiffness_n_per_m3: float,
+    spread_m: float,
+    full_scale_counts: float,
+    dead_n: float,
+    half_n: float,
 ) -> None:
     """Compute the counts of every taxel under a sphere in foam; see `ball_contact` for the model.
 
@@ -194,23 +194,21 @@ def press(
     ----------
     counts : np.ndarray [shape=(rows, cols), dtype=float64]
         Overwritten.
-    pitch, row_pitch : float
+    pitch_m, row_pitch_m : float
         Distances of neighbouring columns and rows [m].
-    x, y, radius, depth, spread : float
-        [m]
-    stiffness : float
-        [N/m^3]
-    full_scale, dead, half : float
-        Parameters of the force response [counts, N, N].
+    x_m, y_m, radius_m, depth_m, stiffness_n_per_m3, spread_m : float
+        Of the sphere's centre, the sphere and the foam.
+    full_scale_counts, dead_n, half_n : float
+        Parameters of the force response.
     """
     rows, cols = counts.shape
     counts[:] = 0.0
-    if depth <= 0.0:
+    if depth_m <= 0.0:
         return
-    reach = math.sqrt(2.0 * radius * depth) + SPREAD_OFFSETS[2] * spread
-    reach_x, reach_y = (reach + 0.5 * pitch) / pitch, (reach + 0.5 * row_pitch) / row_pitch
-    col_middle = x / pitch + 0.5 * (cols - 1)
-    row_middle = 0.5 * (rows - 1) - y / row_pitch
+    reach = math.sqrt(2.0 * radius_m * depth_m) + SPREAD_OFFSETS[2] * spread_m
+    reach_x, reach_y = (reach + 0.5 * pitch_m) / pitch_m, (reach + 0.5 * row_pitch_m) / row_pitch_m
+    col_middle = x_m / pitch_m + 0.5 * (cols - 1)
+    row_middle = 0.5 * (rows - 1) - y_m / row_pitch_m
     first_col = max(math.ceil(col_middle - reach_x), 0)
     last_col = min(math.floor(col_middle + reach_x), cols - 1)
     first_row = max(math.ceil(row_middle - reach_y), 0)
@@ -221,24 +219,24 @@ def press(
     offset_y = np.empty(points)
     for i in range(SUBPOINTS):
         for j in range(3):
-            share, aside = (i + 0.5) / SUBPOINTS - 0.5, SPREAD_OFFSETS[j] * spread
-            offset_x[3 * i + j] = share * pitch + aside
-            offset_y[3 * i + j] = share * row_pitch + aside
+            share, aside = (i + 0.5) / SUBPOINTS - 0.5, SPREAD_OFFSETS[j] * spread_m
+            offset_x[3 * i + j] = share * pitch_m + aside
+            offset_y[3 * i + j] = share * row_pitch_m + aside
             weight[3 * i + j] = SPREAD_WEIGHTS[j] / SUBPOINTS
     rise_x = np.empty(points)
     for col in range(first_col, last_col + 1):
         for i in range(points):
-            distance = (col - col_middle) * pitch + offset_x[i]
-            rise_x[i] = depth - distance * distance / (2.0 * radius)
+            distance = (col - col_middle) * pitch_m + offset_x[i]
+            rise_x[i] = depth_m - distance * distance / (2.0 * radius_m)
         for row in range(first_row, last_row + 1):
             total = 0.0
             for j in range(points):
-                distance = (row_middle - row) * row_pitch + offset_y[j]
-                rise_y = distance * distance / (2.0 * radius)
+                distance = (row_middle - row) * row_pitch_m + offset_y[j]
+                rise_y = distance * distance / (2.0 * radius_m)
                 line = 0.0
                 for i in range(points):
                     line += weight[i] * max(rise_x[i] - rise_y, 0.0)
                 total += weight[j] * line
-            above = stiffness * total * pitch * row_pitch - dead
+            above = stiffness_n_per_m3 * total * pitch_m * row_pitch_m - dead_n
             if above > 0.0:
-                counts[row, col] = full_scale * above / (above + half)
+                counts[row, col] = full_scale_counts * above / (above + half_n)
