@@ -24,7 +24,7 @@ from acts_ros.messages import header_of, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, Counters, SkinState
-from acts_skins.contacts.cycle import Cycle
+from acts_skins.contacts.fixed_rate_thread import FixedRateThread
 from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
 from acts_skins.contacts.placing import Placement, Touch
 from acts_skins.skins_file import skins_of
@@ -81,7 +81,7 @@ class SkinContactsNode(PollingNode):
         self._refused: Counter[tuple[str, str]] = Counter()
         self._foreign_frames: dict[str, str] = {}
         self._aligned: Aligned[bytes] | None = None
-        self._cycle = Cycle(settings.rate_hz, self._step)
+        self._thread = FixedRateThread(settings.rate_hz, self._step)
         self._reported: tuple[float, int, int, Counter[tuple[str, str]]] = (time.monotonic(), 0, 0, Counter())
         self._received_before = {name: Counters() for name in self._placements}
         self._diagnostics = DiagnosticsReporter(
@@ -93,11 +93,11 @@ class SkinContactsNode(PollingNode):
 
     def begin(self) -> None:
         """Start merging."""
-        self._cycle.start()
+        self._thread.start()
 
     def close(self) -> None:
         """Stop merging."""
-        self._cycle.stop()
+        self._thread.stop()
 
     def _step(self) -> None:
         now_ns = self._clock.now().nanoseconds
@@ -177,11 +177,11 @@ class SkinContactsNode(PollingNode):
         return "simulated time (use_sim_time)" if self.get_parameter("use_sim_time").value else "this clock"
 
     def _report(self) -> Report:
-        if self._cycle.failure is not None:
-            raise ActsError(f"merging has stopped: {self._cycle.failure!r}")
+        if self._thread.failure is not None:
+            raise ActsError(f"merging has stopped: {self._thread.failure!r}")
         now_s, refused = time.monotonic(), Counter(self._refused)
         before_s, cycles_before, missed_before, refused_before = self._reported
-        cycles, missed = self._cycle.cycles, self._cycle.missed
+        cycles, missed = self._thread.cycles, self._thread.missed
         self._reported = (now_s, cycles, missed, refused)
         values: dict[str, object] = {
             "rate_hz": (cycles - cycles_before) / max(now_s - before_s, 1e-9),

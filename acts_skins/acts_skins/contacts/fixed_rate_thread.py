@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 
 
-class Cycle:
+class FixedRateThread:
     """Calls `work` at absolute deadlines; missed deadlines are skipped.
 
     Parameters
@@ -18,14 +18,14 @@ class Cycle:
     rate_hz : float
         Calls per second [Hz].
     work : callable
-        Called without arguments; an exception ends the cycle and is kept in `failure`.
+        Called without arguments; an exception ends the thread and is kept in `failure`.
 
     Attributes
     ----------
     cycles, missed : int
         Calls so far, and deadlines that were skipped.
     failure : Exception or None
-        What ended the cycle.
+        What ended the thread.
     """
 
     def __init__(self, rate_hz: float, work: Callable[[], None]) -> None:
