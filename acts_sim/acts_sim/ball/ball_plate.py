@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
-from acts_sim.ball.ball_kernels import plate_motion, plate_pose
+from acts_sim.ball.ball_kernels import plate_motion
 
 _DH = np.column_stack([ur5e.DH_A_M, ur5e.DH_D_M, ur5e.DH_ALPHA_RAD])
 
@@ -93,24 +93,6 @@ class PlateMotion:
         """Angular speed of the plate [rad/s]."""
         x, y, z = self.rows[1].tolist()
         return float((x * x + y * y + z * z) ** 0.5)
-
-
-def pose(config: PlateConfig, q_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Pose of the skin in the robot's base frame.
-
-    Parameters
-    ----------
-    config : PlateConfig
-    q_rad : np.ndarray [shape=(6,), dtype=float64]
-
-    Returns
-    -------
-    rotation : np.ndarray [shape=(3, 3), dtype=float64]
-        Columns are the skin's axes.
-    origin_m : np.ndarray [shape=(3,), dtype=float64]
-    """
-    rotation, origin_m = plate_pose(q_rad, _DH, config.mount_yaw_rad, config.surface_height_m)
-    return rotation, origin_m
 
 
 def motion(config: PlateConfig, joints: JointMotion) -> PlateMotion:

@@ -8,12 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
 from acts_core.robots import ur5e
 from acts_sim.ball import ball, ball_plate
 from acts_sim.ball.ball import BallConfig, BallState
 from acts_sim.ball.ball_kernels import STANDARD_GRAVITY_M_S2 as G
+from acts_sim.ball.ball_kernels import plate_pose
 from acts_sim.ball.ball_plate import JointMotion, PlateConfig, PlateMotion
 
 pytestmark = pytest.mark.slow
@@ -148,13 +150,19 @@ def test_a_plate_that_starts_to_turn_under_it_leaves_it_where_it_is() -> None:
     assert state.vx_m_s == 0.0
 
 
+def pose(config: PlateConfig, q_rad: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Rotation and origin [m] of the skin in the robot's base frame."""
+    rotation, origin_m = plate_pose(q_rad, ball_plate._DH, config.mount_yaw_rad, config.surface_height_m)
+    return rotation, origin_m
+
+
 def test_the_plate_is_where_the_kinematics_of_the_arm_say() -> None:
     config = PlateConfig(mount_yaw_rad=0.4, surface_height_m=0.03)
     c, s = math.cos(0.4), math.sin(0.4)
     mount = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0.03], [0, 0, 0, 1]])
     for q_rad in np.random.default_rng(3).uniform(-3, 3, (50, 6)):
         expected = ur5e.forward_kinematics(q_rad) @ mount
-        rotation, origin_m = ball_plate.pose(config, q_rad)
+        rotation, origin_m = pose(config, q_rad)
         np.testing.assert_allclose(rotation, expected[:3, :3], atol=1e-12)
         np.testing.assert_allclose(origin_m, expected[:3, 3], atol=1e-12)
 
@@ -171,7 +179,7 @@ def test_the_plates_motion_is_the_derivative_of_its_pose() -> None:
         )
 
     time_s, h = 0.37, 1e-4
-    before, now, after = (ball_plate.pose(config, joints(time_s + k * h).q_rad) for k in (-1, 0, 1))
+    before, now, after = (pose(config, joints(time_s + k * h).q_rad) for k in (-1, 0, 1))
     motion = ball_plate.motion(config, joints(time_s)).rows
     acceleration = (after[1] - 2 * now[1] + before[1]) / h**2
     np.testing.assert_allclose(motion[0], now[0].T @ (np.array([0, 0, -G]) - acceleration), atol=1e-5)
