@@ -162,9 +162,13 @@ bool Process::wait_for_frame() {
   while (!ended()) {
     const std::int64_t now = now_ns(CLOCK_MONOTONIC);
     take_faults(now);
-    if (frozen_) {
+    if (!frozen_.empty()) {
       let_time_pass(now);
-      sleep_until(std::min(frozen_until_ns_, now + kNapNs));
+      std::int64_t wake_ns = now + kNapNs;
+      for (const LastingFault& freeze : frozen_) {
+        wake_ns = std::min(wake_ns, freeze.until_ns);
+      }
+      sleep_until(wake_ns);
       continue;
     }
     if (!field_->refresh(now)) {

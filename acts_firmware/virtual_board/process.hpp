@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "acts_firmware/firmware.hpp"
 #include "board/virtual_board.hpp"
@@ -31,6 +32,11 @@ class Process {
   void run();
 
  private:
+  struct LastingFault {
+    Fault fault;
+    std::int64_t until_ns;
+  };
+
   // The board's power comes on: its clock and its sequence start, its settings are those of the command line.
   void power_up(std::int64_t monotonic_ns);
 
@@ -54,6 +60,8 @@ class Process {
   void begin(const Fault& fault);
   void cut_stream(const Fault& fault, std::int64_t monotonic_ns);
   void end_faults(std::int64_t monotonic_ns);
+  // Those of `faults` that are over, taken out of it.
+  static std::vector<Fault> take_ended(std::vector<LastingFault>& faults, std::int64_t monotonic_ns);
   std::int64_t report(const Fault& fault, bool is_over) const;
 
   std::int64_t status_period_ns() const;
@@ -74,10 +82,9 @@ class Process {
   FaultyLink link_;
   std::unique_ptr<ControlPipe> control_;
   FaultPlan plan_;
-  std::optional<Fault> unplugged_;
-  std::int64_t plug_in_at_ns_ = 0;
-  std::optional<Fault> frozen_;
-  std::int64_t frozen_until_ns_ = 0;
+  // Under way; of those that overlap, each ends at its own time.
+  std::vector<LastingFault> unplugged_;
+  std::vector<LastingFault> frozen_;
   bool stands_still_ = false;       // the field does
   std::int64_t start_ns_ = 0;       // of the next frame, on the board's clock
   std::int64_t last_start_ns_ = 0;  // of the last frame

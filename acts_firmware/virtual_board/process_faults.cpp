@@ -36,8 +36,7 @@ void Process::take_faults(std::int64_t monotonic_ns) {
 void Process::begin(const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::kFreeze:
-      frozen_ = fault;
-      frozen_until_ns_ = report(fault, false) + fault.value_ns();
+      frozen_.push_back({fault, report(fault, false) + fault.value_ns()});
       break;
     case FaultKind::kJump:
       time_.jump(fault.value_ns());
@@ -55,10 +54,9 @@ void Process::begin(const Fault& fault) {
 void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
   const bool loses_port = fault.kind == FaultKind::kUnplug || fault.value > 0.0;
   if (loses_port) {
-    if (!unplugged_) {
+    if (unplugged_.empty()) {
       terminal_.unplug();
     }
-    unplugged_ = fault;
     serve_terminal();
   }
   link_.clear();
@@ -70,23 +68,40 @@ void Process::cut_stream(const Fault& fault, std::int64_t monotonic_ns) {
   }
   const std::int64_t began_ns = report(fault, false);
   if (loses_port) {
-    plug_in_at_ns_ = began_ns + fault.value_ns();
+    unplugged_.push_back({fault, began_ns + fault.value_ns()});
   } else {
     report(fault, true);
   }
 }
 
 void Process::end_faults(std::int64_t monotonic_ns) {
-  if (unplugged_ && monotonic_ns >= plug_in_at_ns_) {
+  const std::vector<Fault> plugged = take_ended(unplugged_, monotonic_ns);
+  if (!plugged.empty() && unplugged_.empty()) {
     terminal_.plug_in();
-    report(*unplugged_, true);
-    unplugged_.reset();
   }
-  if (frozen_ && monotonic_ns >= frozen_until_ns_) {
+  const std::vector<Fault> thawed = take_ended(frozen_, monotonic_ns);
+  if (!thawed.empty()) {
     let_time_pass(monotonic_ns);
-    report(*frozen_, true);
-    frozen_.reset();
   }
+  for (const std::vector<Fault>& ended : {plugged, thawed}) {
+    for (const Fault& fault : ended) {
+      report(fault, true);
+    }
+  }
+}
+
+std::vector<Fault> Process::take_ended(std::vector<LastingFault>& faults, std::int64_t monotonic_ns) {
+  std::vector<Fault> ended;
+  std::vector<LastingFault> lasting;
+  for (const LastingFault& one : faults) {
+    if (monotonic_ns >= one.until_ns) {
+      ended.push_back(one.fault);
+    } else {
+      lasting.push_back(one);
+    }
+  }
+  faults = lasting;
+  return ended;
 }
 
 }  // namespace acts

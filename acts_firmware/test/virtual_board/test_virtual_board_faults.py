@@ -275,6 +275,22 @@ def test_a_schedule_on_the_command_line(tmp_path: Path) -> None:
         board.read_frames(3)
 
 
+@pytest.mark.parametrize("kind", ["freeze", "unplug", "reset"])
+def test_of_faults_that_overlap_each_is_over_at_its_own_time(tmp_path: Path, kind: str) -> None:
+    long, short = f"{kind}:0.5", f"{kind}:0.2"
+    # The last one, so that an end that never comes is missed and not waited for.
+    with BoardProcess(tmp_path, "--fault", long, "--fault", short, "--fault", "jump@3") as board:
+        lines = [board.status() for _ in range(4)]
+        assert [(line["fault"], line["over"]) for line in lines[:2]] == [(long, False), (short, False)]
+        ends = {line["fault"]: line for line in lines[2:]}
+        assert [ends[fault]["over"] for fault in (long, short)] == [True, True]
+        for line, shortest_ns in zip(lines, (500_000_000, 200_000_000), strict=False):
+            assert ends[line["fault"]]["monotonic_ns"] - line["monotonic_ns"] >= shortest_ns
+        assert str(board.link.readlink()) == ends[long]["port"]
+        board.open_port()
+        board.read_frames(3)
+
+
 def test_control_refuses_in_words_and_goes_with_the_board(tmp_path: Path) -> None:
     with BoardProcess(tmp_path, "--control", tmp_path / "control") as board:
         inject(board, "earthquake:9", "drop:0.5", "freeze:0")
