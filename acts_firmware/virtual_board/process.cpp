@@ -161,6 +161,7 @@ bool Process::ended() {
 bool Process::wait_for_frame() {
   while (!ended()) {
     const std::int64_t now = now_ns(CLOCK_MONOTONIC);
+    notice_host();  // in pauses, too, when nobody hears what it says
     take_faults(now);
     if (!frozen_.empty()) {
       let_time_pass(now);
@@ -201,19 +202,27 @@ void Process::let_time_pass(std::int64_t monotonic_ns) {
   firmware_->keep_time();
 }
 
+bool Process::notice_host() {
+  switch (terminal_.service()) {
+    case PseudoTerminal::Event::kOpened:
+      link_.clear();
+      firmware_->start_stream();
+      break;
+    case PseudoTerminal::Event::kClosed: {
+      const bool changed = hear_host();  // what a host says before it leaves counts as well
+      link_.clear();
+      firmware_->stop_stream();
+      return changed;
+    }
+    case PseudoTerminal::Event::kNone:
+      break;
+  }
+  return false;
+}
+
 bool Process::serve_terminal() {
-  const PseudoTerminal::Event event = terminal_.service();
-  if (event == PseudoTerminal::Event::kOpened) {
-    link_.clear();
-    firmware_->start_stream();
-  }
-  // What a host says before it leaves counts as well.
-  const bool changed = hear_host();
-  if (event == PseudoTerminal::Event::kClosed) {
-    link_.clear();
-    firmware_->stop_stream();
-  }
-  return changed;
+  const bool changed = notice_host();
+  return hear_host() || changed;
 }
 
 bool Process::hear_host() {
@@ -244,6 +253,7 @@ bool Process::hear_host() {
 }
 
 void Process::send() {
+  notice_host();  // what the last host was to get is none of one that has come meanwhile
   const std::int64_t now = now_ns(CLOCK_MONOTONIC);
   if (const std::optional<Fault> cut = link_.send(firmware_->output(), terminal_, now)) {
     cut_stream(*cut, now);

@@ -49,7 +49,9 @@ class Process {
   bool wait_for_frame();
   // The board's time goes on to now without a frame, and the next frame begins then.
   void let_time_pass(std::int64_t monotonic_ns);
-  // True where the host has changed the times of the next frame.
+  // Begins or ends the stream of a host that comes or goes. True where it has changed the times of the next frame.
+  bool notice_host();
+  // Hears what the host says as well. True as above.
   bool serve_terminal();
   bool hear_host();
   void send();

@@ -6,9 +6,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/inotify.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -39,6 +41,9 @@ PseudoTerminal::PseudoTerminal(const std::string& link) : link_(link) {
 
 PseudoTerminal::~PseudoTerminal() {
   remove_link();
+  if (watch_ >= 0) {
+    close(watch_);
+  }
   close(master_);
 }
 
@@ -74,6 +79,7 @@ void PseudoTerminal::make_terminal() {
   }
   // Only after a first opening and closing does the system report that nobody has the other end open.
   discard_unread();
+  watch();
 }
 
 void PseudoTerminal::remove_link() const {
@@ -116,22 +122,54 @@ void PseudoTerminal::discard_unread() const {
   }
 }
 
+void PseudoTerminal::watch() {
+  if (watch_ >= 0) {
+    close(watch_);
+  }
+  openers_ = 0;
+  watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  if (watch_ >= 0) {
+    inotify_add_watch(watch_, port_.c_str(), IN_OPEN | IN_CLOSE);
+  }
+}
+
+bool PseudoTerminal::was_left() {
+  bool left = false;
+  alignas(inotify_event) std::array<char, 4096> events{};
+  const ssize_t length = ::read(watch_, events.data(), events.size());
+  for (ssize_t at = 0; at < length;) {
+    const auto* event = reinterpret_cast<const inotify_event*>(events.data() + at);
+    if ((event->mask & IN_OPEN) != 0) {
+      ++openers_;
+    } else if ((event->mask & IN_CLOSE) != 0) {
+      // None is counted where it was opened before the watch began.
+      openers_ = std::max(openers_ - 1, 0);
+      left = left || openers_ == 0;
+    }
+    at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+  }
+  return left;
+}
+
 PseudoTerminal::Event PseudoTerminal::service() {
-  pollfd state{master_, POLLIN, 0};
-  if (poll(&state, 1, 0) < 0) {
+  // The terminal tells whether somebody has the other end open now, the watch whether nobody had meanwhile. In this
+  // order: a host that comes between the two is seen by the watch.
+  std::array<pollfd, 2> states = {{{master_, POLLIN, 0}, {watch_, POLLIN, 0}}};
+  if (poll(states.data(), states.size(), 0) < 0) {
     has_input_ = false;
     return Event::kNone;
   }
-  has_input_ = (state.revents & POLLIN) != 0;
-  const bool now_open = (state.revents & POLLHUP) == 0;
-  if (now_open == open_) {
-    return Event::kNone;
-  }
+  has_input_ = (states[0].revents & POLLIN) != 0;
+  const bool now_open = (states[0].revents & POLLHUP) == 0;
+  const bool left = (states[1].revents & POLLIN) != 0 && was_left();
+  const bool was_open = open_;
   open_ = now_open;
-  if (!open_) {
+  if (was_open && (left || !now_open)) {
     discard_unread();  // the next host must not begin with the last one's leftovers
+    watch();           // which has seen that as well
+    return now_open ? Event::kOpened : Event::kClosed;
   }
-  return open_ ? Event::kOpened : Event::kClosed;
+  return now_open && !was_open ? Event::kOpened : Event::kNone;
 }
 
 std::size_t PseudoTerminal::read(std::uint8_t* data, std::size_t capacity) {

@@ -21,7 +21,8 @@ class PseudoTerminal {
 
   enum class Event : std::uint8_t { kNone, kOpened, kClosed };
 
-  // Notices whether the host's end was opened or closed, and whether the host has sent something.
+  // Notices whether the host's end was opened or closed, and whether the host has sent something. That it was closed
+  // and opened again since the last call counts as opened.
   Event service();
 
   // Takes what the host had sent when `service` was last called: number of bytes, 0 for none. Never waits. What has
@@ -48,8 +49,14 @@ class PseudoTerminal {
   void make_link() const;
   void remove_link() const;
   void discard_unread() const;
+  // Begins to watch the host's end anew.
+  void watch();
+  // Whether at some time since the last call nobody had the host's end open any more.
+  bool was_left();
 
   int master_ = -1;
+  int watch_ = -1;   // of inotify; -1 where the system has none left
+  int openers_ = 0;  // of the host's end, since the watch began
   bool open_ = false;
   bool has_input_ = false;
   std::string link_;
