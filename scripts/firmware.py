@@ -23,6 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "acts_firmware"
 BUILD = ROOT / ".acts/firmware"
+LOCK = ROOT / ".acts/firmware.lock"
 TOOLS_MISSING = 3
 
 COMPILER_PACKAGES = {
@@ -102,13 +103,21 @@ def need(tools: dict[str, str]) -> None:
         sys.exit(TOOLS_MISSING)
 
 
+def remove_of_another_place() -> None:
+    """Removes what was built before the checkout was moved or mounted elsewhere: CMake would refuse it for good."""
+    cache = BUILD / "CMakeCache.txt"
+    if cache.exists() and f"CMAKE_HOME_DIRECTORY:INTERNAL={SOURCE}" not in cache.read_text().splitlines():
+        shutil.rmtree(BUILD)
+
+
 def build() -> None:
     need(COMPILER_PACKAGES)
     toolchain = SOURCE / "teensy/cortex_m7.cmake"
     configure = ["cmake", "-S", str(SOURCE), "-B", str(BUILD), "-G", "Unix Makefiles"]
-    BUILD.mkdir(parents=True, exist_ok=True)
-    with (BUILD / "lock").open("w") as lock:
+    LOCK.parent.mkdir(parents=True, exist_ok=True)
+    with LOCK.open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # files of tests run side by side
+        remove_of_another_place()
         for command in (
             [*configure, f"-DCMAKE_TOOLCHAIN_FILE={toolchain}"],
             ["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count() or 1)],
