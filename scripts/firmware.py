@@ -26,8 +26,9 @@ BUILD = ROOT / ".acts/firmware"
 LOCK = ROOT / ".acts/firmware.lock"
 TOOLS_MISSING = 3
 
+COMPILER = "arm-none-eabi-g++"
 COMPILER_PACKAGES = {
-    "arm-none-eabi-g++": "gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib",
+    COMPILER: "gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib",
     "cmake": "cmake",
     "make": "make",
 }
@@ -92,9 +93,19 @@ class Sizes:
         return found
 
 
+def works(tool: str) -> bool:
+    """Whether it is installed; the compiler not without its C++ library, which its package only recommends."""
+    if shutil.which(tool) is None:
+        return False
+    if tool != COMPILER:
+        return True
+    asked = [tool, "-x", "c++", "-fsyntax-only", "-"]
+    return subprocess.run(asked, input="#include <array>\n", text=True, capture_output=True).returncode == 0
+
+
 def missing(tools: dict[str, str]) -> list[str]:
     """Packages of the tools that are not installed."""
-    return [package for tool, package in tools.items() if shutil.which(tool) is None]
+    return [package for tool, package in tools.items() if not works(tool)]
 
 
 def need(tools: dict[str, str]) -> None:

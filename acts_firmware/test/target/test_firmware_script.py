@@ -3,10 +3,13 @@
 
 """The script that builds for the Teensy 4.1, on a firmware of no program, which takes no time."""
 
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
-from firmware_script import SCRIPT, firmware
+from firmware_script import BUILD_LIMIT_S, SCRIPT, TOOLS_MISSING, firmware
 
 EMPTY = "cmake_minimum_required(VERSION 3.16)\nproject(empty LANGUAGES NONE)\n"
 
@@ -34,3 +37,18 @@ def test_a_checkout_that_was_moved_is_built_anew(tmp_path: Path) -> None:
     kept.touch()
     assert firmware(script=after / "scripts/firmware.py").returncode == 0
     assert kept.exists()
+
+
+def test_a_compiler_without_its_library_is_told_with_the_packages(tmp_path: Path) -> None:
+    compiler = tmp_path / "bin/arm-none-eabi-g++"
+    compiler.parent.mkdir()
+    compiler.write_text("#!/bin/sh\necho '<stdin>:1:10: fatal error: array: No such file or directory' >&2\nexit 1\n")
+    compiler.chmod(0o755)
+    script = make_checkout(tmp_path / "checkout")
+    environment = {**os.environ, "PATH": f"{compiler.parent}:{os.environ['PATH']}"}
+    result = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=BUILD_LIMIT_S, env=environment
+    )
+    assert result.returncode == TOOLS_MISSING
+    assert "sudo apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi" in result.stderr
+    assert len(result.stderr.splitlines()) == 1
