@@ -278,6 +278,14 @@ def test_folders_that_others_have_a_hand_in_are_refused(tmp_path: Path) -> None:
     assert list(folder.iterdir()) == []
 
 
+def test_a_folder_that_is_read_only_is_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir(mode=0o500)
+    # Root may write to any folder but those of the kernel.
+    link = folder / "board" if os.geteuid() != 0 else Path("/proc/board")
+    assert f"{link}.lock cannot be opened" in refusal(link, 2)
+
+
 def test_a_file_in_place_of_the_link_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "notes.txt"
     path.write_text("mine")

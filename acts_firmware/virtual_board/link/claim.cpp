@@ -42,6 +42,11 @@ template <typename Error = std::runtime_error>
   throw Error(what + kOther);
 }
 
+// What an opening says of a path that will never do; a full disk may have room again.
+bool is_lasting(int error) {
+  return error == EROFS || error == EACCES || error == ENOENT || error == ENOTDIR;
+}
+
 std::string user(uid_t id) {
   const passwd* entry = getpwuid(id);
   return entry != nullptr ? entry->pw_name : "user " + std::to_string(id);
@@ -122,7 +127,12 @@ bool Claim::lock() {
   while (true) {
     file_ = open(lock_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
     if (file_ < 0) {
-      refuse(lock_path_ + " cannot be opened (" + std::strerror(errno) + "); ");
+      const int error = errno;
+      const std::string what = lock_path_ + " cannot be opened (" + std::strerror(error) + "); ";
+      if (is_lasting(error)) {
+        refuse<OptionError>(what);
+      }
+      refuse(what);
     }
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       close(file_);

@@ -10,8 +10,8 @@ namespace acts {
 
 // From the making on until the end, however the process ends. Makes the folder, for its user alone, where it is
 // missing. Throws OptionError where another process has the file, which is named, and still has it after a second;
-// where the folder is a symbolic link, belongs to somebody else, or anybody may write to it (like /tmp it may be);
-// where PATH.lock is something else than the lock of a process.
+// where the folder is a symbolic link, is read-only, belongs to somebody else, or anybody may write to it (like /tmp it
+// may be); where PATH.lock is something else than the lock of a process.
 class Claim {
  public:
   explicit Claim(const std::string& path);

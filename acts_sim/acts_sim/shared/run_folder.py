@@ -8,6 +8,7 @@ The virtual board does the same in C++ (acts_firmware/virtual_board/link/claim.c
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import pwd
@@ -23,6 +24,8 @@ from acts_core.runtime import process_name
 _WAIT_S = 1.0
 # Of a lock [bytes]: a process id and a newline.
 _LONGEST_LOCK = 24
+# What an opening says of a path that will never do; a full disk may have room again.
+_LASTING = (errno.EROFS, errno.EACCES, errno.ENOENT, errno.ENOTDIR)
 _OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
 
 
@@ -71,7 +74,7 @@ class FileClaim:
     ------
     SettingsError
         Another process uses it, and still after `_WAIT_S` (the message names it); the folder is not allowed
-        (`make_private`); the path is empty; the file with the suffix is something else than such a lock.
+        (`make_private`) or read-only; the path is empty; the file with the suffix is something else than such a lock.
     ActsError
         The lock cannot be made, as on a full disk.
     """
@@ -88,7 +91,8 @@ class FileClaim:
         except BlockingIOError as error:
             raise SettingsError(f"{path} is in use by {self._holder()}; end that program, or {_OTHER}") from error
         except OSError as error:
-            raise ActsError(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
+            kind = SettingsError if error.errno in _LASTING else ActsError
+            raise kind(f"{self._path} cannot be locked ({error.strerror}); {_OTHER}") from error
         try:
             if not _is_lock(os.pread(self._fd, _LONGEST_LOCK + 1, 0)):
                 os.close(self._fd)

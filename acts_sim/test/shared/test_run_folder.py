@@ -138,6 +138,15 @@ def test_a_link_in_place_of_the_lock_is_not_followed(tmp_path: Path) -> None:
     assert victim.read_text() == "kept"
 
 
+def test_a_folder_that_is_read_only_is_a_wrong_setting(tmp_path: Path) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir(mode=0o500)
+    # Root may write to any folder but those of the kernel.
+    path = folder / "field.ring" if os.geteuid() != 0 else Path("/proc/field.ring")
+    with pytest.raises(SettingsError, match="cannot be locked"):
+        FileClaim(path)
+
+
 def test_a_full_folder_is_told_and_nothing_of_the_lock_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> int:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
