@@ -108,7 +108,6 @@ void Process::set_pace() {
 
 void Process::run() {
   print_start();
-  std::int64_t next_status_ns = status_period_ns();
   while (wait_for_frame()) {
     if (serve_terminal()) {
       send();
@@ -128,10 +127,7 @@ void Process::run() {
     start_ns_ += step_ns_;
     send();
     recover_frame();
-    if (next_status_ns > 0 && now - epoch_.monotonic_ns >= next_status_ns) {
-      print_status();
-      next_status_ns += status_period_ns();
-    }
+    print_status_if_due(now);
   }
 }
 
@@ -165,6 +161,7 @@ bool Process::wait_for_frame() {
     take_faults(now);
     if (!frozen_.empty()) {
       let_time_pass(now);
+      print_status_if_due(now);
       std::int64_t wake_ns = now + kNapNs;
       for (const LastingFault& freeze : frozen_) {
         wake_ns = std::min(wake_ns, freeze.until_ns);
@@ -176,6 +173,7 @@ bool Process::wait_for_frame() {
       // As frozen: a board that sent frames of a dead world would tell the host of a touch that is none.
       stands_still_ = true;
       let_time_pass(now);
+      print_status_if_due(now);
       sleep_until(now + kNapNs);
       continue;
     }
@@ -189,6 +187,7 @@ bool Process::wait_for_frame() {
     }
     sleep_until(std::min(wake_ns, now + kNapNs));
     if (now + kNapNs < wake_ns) {
+      print_status_if_due(now_ns(CLOCK_MONOTONIC));
       serve_terminal();
       send();
     }

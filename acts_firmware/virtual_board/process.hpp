@@ -66,9 +66,8 @@ class Process {
   static std::vector<Fault> take_ended(std::vector<LastingFault>& faults, std::int64_t monotonic_ns);
   std::int64_t report(const Fault& fault, bool is_over) const;
 
-  std::int64_t status_period_ns() const;
   void print_start() const;
-  void print_status() const;
+  void print_status_if_due(std::int64_t monotonic_ns);
 
   const Options options_;
   const volatile std::sig_atomic_t& stop_requested_;
@@ -95,6 +94,7 @@ class Process {
   std::int64_t computing_ns_ = 0;  // after a frame, on what is sent besides its samples
   std::int64_t step_ns_ = 0;
   std::uint64_t frames_ = 0;
+  std::int64_t last_status_ = 0;  // which multiple of the period it was due at
 };
 
 }  // namespace acts

@@ -39,10 +39,6 @@ std::int64_t Process::report(const Fault& fault, bool is_over) const {
   return monotonic_ns;
 }
 
-std::int64_t Process::status_period_ns() const {
-  return static_cast<std::int64_t>(options_.status_period_s * 1e9);
-}
-
 void Process::print_start() const {
   if (!options_.print_status) {
     return;
@@ -58,7 +54,17 @@ void Process::print_start() const {
   std::cout << line.str() << std::endl;
 }
 
-void Process::print_status() const {
+void Process::print_status_if_due(std::int64_t monotonic_ns) {
+  const auto period_ns = static_cast<std::int64_t>(options_.status_period_s * 1e9);
+  if (period_ns == 0) {
+    return;
+  }
+  // Those that are missed, as by a process that was stopped, are not made up for.
+  const std::int64_t due = (monotonic_ns - epoch_.monotonic_ns) / period_ns;
+  if (due == last_status_) {
+    return;
+  }
+  last_status_ = due;
   std::cout << "{\"frames\": " << frames_ << ", \"overruns\": " << firmware_->overruns()
             << ", \"connected\": " << (terminal_.open() ? "true" : "false") << "}" << std::endl;
 }

@@ -162,6 +162,21 @@ def test_a_frozen_board_makes_no_frames(board: BoardProcess) -> None:
     assert max(steps) >= 399_000
 
 
+def test_status_comes_in_a_pause_and_is_not_made_up_for_after_it(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path, "--fault", "freeze:1@0.2", "--status-period-s", 0.1) as board:
+        lines = [board.status()]
+        while not lines[-1].get("over"):
+            lines.append(board.status())
+        began = next(i for i, line in enumerate(lines) if "fault" in line)
+        during = lines[began + 1 : -1]
+        assert len(during) >= 3
+        assert len({line["frames"] for line in during}) == 1
+        after = [board.status()]
+        while after[-1]["frames"] < during[-1]["frames"] + 300:
+            after.append(board.status())
+        assert len(after) <= 8
+
+
 def test_a_query_that_waited_for_a_frozen_board_is_answered_with_the_time_by_then(board: BoardProcess) -> None:
     replies: list[BoardMessage] = []
     board.decoder = StreamDecoder(on_message=replies.append)
