@@ -15,6 +15,7 @@ from acts_core.sampling.basis import (
     SamplingScheme,
     Share,
     SkinMap,
+    quota_of,
     with_fields,
 )
 from acts_core.sampling.registry import (
@@ -49,5 +50,6 @@ __all__ = [
     "check_names",
     "frame_size",
     "measure_in",
+    "quota_of",
     "with_fields",
 ]

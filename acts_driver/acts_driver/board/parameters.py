@@ -21,6 +21,7 @@ from acts_core.sampling import (
     SamplingConfig,
     SkinMap,
     check_names,
+    quota_of,
     with_fields,
 )
 from acts_core.settings import Changeable, setting
@@ -226,5 +227,5 @@ def _quota(share: float, own: int, own_m: int, m: int, *, is_used: bool) -> int:
     """Taxels of a frame of `m`: a share of it, or as many as the board's own are of its frame."""
     if share <= 0 and not is_used:
         return own
-    quota = math.ceil(share * m) if share > 0 else -(-own * m // own_m)
+    quota = quota_of(share, m) if share > 0 else -(-own * m // own_m)
     return min(max(quota, 1), m)

@@ -54,6 +54,11 @@ def test_the_rate_is_never_above_its_cap(rate_cap_hz: float, period_us: int) -> 
     assert wanted.frame_period_us == period_us
 
 
+def test_a_share_of_a_frame_is_exact() -> None:
+    wanted = BoardParameters(scheme="tracking", m=100, search_share=0.55, adaptive_share=0.07).wanted(BoardSettings())
+    assert (wanted.search_quota, wanted.adaptive_quota) == (55, 7)
+
+
 @given(st.integers(1, 1024), st.integers(1, 1024), st.sampled_from(["tracking", "hybrid", "adaptive"]), st.data())
 def test_quotas_always_fit_the_frame(own_m: int, m: int, scheme: str, data: st.DataObject) -> None:
     own = BoardSettings(

@@ -3,7 +3,9 @@
 
 """The core on the board and its Python reference measure the same taxels in the same order."""
 
+import math
 from collections.abc import Callable
+from fractions import Fraction
 from itertools import product
 from pathlib import Path
 
@@ -16,7 +18,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in
+from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in, quota_of
 from acts_core.sampling.basis import Pcg32, division_order
 from acts_core.sampling.schemes.uniform import uniform_spacing
 from acts_core.skin import layout
@@ -201,6 +203,15 @@ def test_quotas(share: float, m: int) -> None:
     assert 1 <= quota <= m
     assert quota == SamplingConfig("tracking", 64, 64, m, search_share=share).search_quota
     assert quota == SamplingConfig("hybrid", 64, 64, m, adaptive_share=share).adaptive_quota
+
+
+@pytest.mark.parametrize("hundredths", range(1, 101))
+def test_quotas_of_decimal_shares_are_exact(hundredths: int) -> None:
+    share = hundredths / 100
+    sizes = range(1, 4097)
+    exact = [math.ceil(Fraction(str(share)) * m) for m in sizes]
+    assert [quota_of(share, m) for m in sizes] == exact
+    assert [core_library.quota_of(share, m) for m in sizes] == exact
 
 
 @pytest.mark.parametrize("m", [*PUBLISHED_SPACING, 55])

@@ -11,7 +11,7 @@ from acts_core.sampling.basis.dither_order import dither_order
 from acts_core.sampling.basis.division_order import division_order
 from acts_core.sampling.basis.pcg32 import Pcg32
 from acts_core.sampling.basis.scheme import Measure, Samples, SamplingScheme
-from acts_core.sampling.basis.settings import NEIGHBOURS, CommonSettings, OwnSetting, Share, with_fields
+from acts_core.sampling.basis.settings import NEIGHBOURS, CommonSettings, OwnSetting, Share, quota_of, with_fields
 from acts_core.sampling.basis.skin_map import SkinMap
 
 __all__ = [
@@ -26,5 +26,6 @@ __all__ = [
     "SkinMap",
     "dither_order",
     "division_order",
+    "quota_of",
     "with_fields",
 ]

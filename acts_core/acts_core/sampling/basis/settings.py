@@ -26,6 +26,14 @@ NEIGHBOURS: dict[str, tuple[tuple[int, int], ...]] = {
 # Smaller shares would all mean the same: one taxel of even the largest array.
 SHARE_MIN = 0.0001
 
+# More than the product of a share and of the largest array's taxels is off in binary: 0.55 * 100 is 55.00000000000001.
+_ROUNDING = 1e-9
+
+
+def quota_of(share: float, m: int) -> int:
+    """The number of taxels that is a share (above 0, up to 1) of `m`, rounded up; as acts_firmware has it."""
+    return max(math.ceil(share * m - _ROUNDING), 1)
+
 
 @dataclass(frozen=True)
 class Share:
@@ -99,7 +107,7 @@ class OwnSetting:
 
     def board_value(self, given: float, m: int) -> int:
         """What a board is told where a user gives this."""
-        return math.ceil(given * m) if self.share else int(given)
+        return quota_of(given, m) if self.share else int(given)
 
     def check(self, value: int, rows: int, cols: int, m: int, scheme: str) -> None:
         """Check what a board is told in frames of the setting's scheme.

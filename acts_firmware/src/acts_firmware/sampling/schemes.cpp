@@ -3,6 +3,7 @@
 
 #include "acts_firmware/sampling/schemes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "acts_firmware/sampling/settings.hpp"
@@ -79,7 +80,9 @@ SettingField check(const SamplingConfig& config) {
 }
 
 int quota_of(double share, int m) {
-  return static_cast<int>(std::ceil(share * m));
+  // More than the product is off in binary: 0.55 * 100 is 55.00000000000001.
+  constexpr double kRounding = 1e-9;
+  return std::max(static_cast<int>(std::ceil(share * m - kRounding)), 1);
 }
 
 }  // namespace acts
