@@ -119,6 +119,20 @@ void test_pace_after_lateness() {
   CHECK(!pacer.due(303599, 1000) && pacer.due(303600, 1000));
 }
 
+// What was skipped by a board that is held up for 300 ms after a frame of 400 us.
+std::uint32_t skipped_of(std::uint32_t period_us) {
+  acts::FramePacer pacer;
+  CHECK(pacer.begin(50, period_us) == 0);
+  pacer.end(450);
+  return pacer.begin(300'450, period_us);
+}
+
+void test_frames_without_a_period_are_skipped_as_well() {
+  CHECK(skipped_of(0) == 750);
+  CHECK(skipped_of(100) == 750);
+  CHECK(skipped_of(500) == 599);
+}
+
 void test_a_shorter_period_skips_nothing() {
   constexpr std::uint32_t kLongUs = 1'000'000;
   constexpr std::uint32_t kShortUs = 1000;
@@ -320,6 +334,7 @@ int main() {
   test_frame_across_a_wrap();
   test_pace();
   test_pace_after_lateness();
+  test_frames_without_a_period_are_skipped_as_well();
   test_a_shorter_period_skips_nothing();
   test_crc();
   test_cobs();

@@ -9,6 +9,7 @@
 //   <time_us> press ROW COL COUNTS    this taxel reads so many counts from now on
 //   <time_us> send HEX                bytes from the host
 //   <time_us> hold US                 something holds the processor up for so long
+//   <time_us> delay US                USB does so when the sketch next looks after it, between two frames
 //   <time_us> end
 //
 // in the order of time. Prints `data <time_us> <hex>` for all the host read in a USB frame, and in the end a line each
@@ -23,6 +24,7 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
+#include <utility>
 
 #include "board/wired_board.hpp"
 
@@ -102,7 +104,10 @@ class Model final : public acts::WiredBoard {
     return static_cast<std::uint32_t>(now_ns_ / 1000);
   }
 
-  bool open() const { return open_ && now_ns_ - opened_ns_ >= kOpenDelayNs; }
+  bool open() {
+    now_ns_ += std::exchange(delay_ns_, 0);
+    return open_ && now_ns_ - opened_ns_ >= kOpenDelayNs;
+  }
   int room() const { return static_cast<int>(kUsbBuffer - std::min(kUsbBuffer, to_host_.size())); }
   void give_host(const std::uint8_t* data, std::size_t length) { to_host_.insert(to_host_.end(), data, data + length); }
   std::deque<std::uint8_t>& from_host() { return from_host_; }
@@ -154,10 +159,10 @@ class Model final : public acts::WiredBoard {
       for (const char* hex = command_.text; std::sscanf(hex, "%2x", &byte) == 1; hex += 2) {
         from_host_.push_back(static_cast<std::uint8_t>(byte));
       }
-    } else if (is("hold")) {
-      int hold_us = 0;
-      std::sscanf(command_.text, "%d", &hold_us);
-      hold_ns = std::int64_t{hold_us} * 1000;
+    } else if (is("hold") || is("delay")) {
+      int for_us = 0;
+      std::sscanf(command_.text, "%d", &for_us);
+      (is("hold") ? hold_ns : delay_ns_) = std::int64_t{for_us} * 1000;
     } else {
       ended_ = true;
     }
@@ -185,6 +190,7 @@ class Model final : public acts::WiredBoard {
   std::int64_t opened_ns_ = 0;
   std::int64_t fed_ns_ = -1;
   std::int64_t hungry_ns_ = 0;
+  std::int64_t delay_ns_ = 0;
   bool open_ = false;
   bool reading_ = false;
   bool led_ = false;

@@ -6,6 +6,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 from core_library import installed
 from sketch_model import WATCHDOG_ENABLED, run_sketch, upload
 
@@ -93,15 +94,21 @@ def test_a_host_that_stalls_costs_whole_frames_and_no_time(tmp_path: Path) -> No
     assert np.all(np.abs(np.diff([frame.board_us for frame in frames]) - PERIOD_US * (gaps + 1)) <= 5)
 
 
-def test_what_holds_the_processor_up_is_counted(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("period_us", "delay"), [(PERIOD_US, "hold"), (PERIOD_US, "delay"), (0, "delay")])
+def test_what_holds_the_processor_up_is_counted(tmp_path: Path, period_us: int, delay: str) -> None:
     # Of a millisecond, 20 measurements leave more than half: the processor is held up between two frames.
-    configure = encode_configure(1, BoardSettings(m=20)).hex()
-    run = run_sketch(["20000 open", f"40000 send {configure}", "100700 hold 400000", "600000 end"], tmp_path)
+    configure = encode_configure(1, BoardSettings(m=20, frame_period_us=period_us)).hex()
+    run = run_sketch(["20000 open", f"40000 send {configure}", f"100700 {delay} 400000", "600000 end"], tmp_path)
     frames = run.frames()
     gaps = np.diff([frame.sequence for frame in frames]) - 1
     assert np.count_nonzero(gaps) == 1
     assert frames[-1].overruns == gaps.sum()
-    assert 398 <= gaps.sum() <= 400
+    if period_us > 0:
+        assert 398 <= gaps.sum() <= 400
+    else:
+        # One directly after another; how long one takes is told in whole microseconds.
+        busy_us = frames[-1].duration_us
+        assert 400_000 // (busy_us + 2) <= gaps.sum() <= 400_000 // (busy_us - 2)
 
 
 def test_frames_that_follow_sooner_from_now_on_are_none_that_were_missed(tmp_path: Path) -> None:
