@@ -27,7 +27,7 @@ extern int failures;
 using Bytes = std::vector<std::uint8_t>;
 
 // Each taxel reads its own index (modulo the ADC's range), a measurement takes 10 us.
-class IndexBoard final : public acts::WiredBoard {
+class IndexBoard : public acts::WiredBoard {
  public:
   IndexBoard(int rows, int cols, std::uint32_t start_us = 0) : WiredBoard(rows, cols), cols_(cols), now_us_(start_us) {}
 

@@ -15,6 +15,7 @@
 #include "acts_firmware/board/clock.hpp"
 #include "acts_firmware/board/pacer.hpp"
 #include "acts_firmware/firmware.hpp"
+#include "acts_firmware/recovery/image_recovery.hpp"
 #include "core_checks.hpp"
 
 namespace {
@@ -306,6 +307,30 @@ void test_new_settings_forget_what_was_pressed() {
   CHECK(frame->indices == first);
 }
 
+class CountingBoard final : public IndexBoard {
+ public:
+  CountingBoard() : IndexBoard(32, 32) {}
+  void computing() override { ++calls; }
+  int calls = 0;
+};
+
+void test_the_board_is_told_while_an_image_is_recovered() {
+  constexpr int kAtoms = 8;
+  constexpr int kSide = 8;
+  const std::vector<float> values(kAtoms * kSide * kSide, 0.125F);
+  auto recovery = std::make_unique<acts::ImageRecovery>();
+  auto work = std::make_unique<acts::ImageRecovery::Workspace>();
+  auto frame = std::make_unique<acts::SampleFrame>();
+  frame->rows = frame->cols = 32;
+  frame->m = 1;
+  frame->indices[0] = 400;
+  frame->counts[0] = 900;
+  CountingBoard board;
+  CHECK(recovery->prepare({values.data(), kAtoms, kSide, 1}, 32, 32));
+  CHECK(recovery->recover(*frame, 180, *work, &board)[400] == 900.0F);
+  CHECK(board.calls == 32 - kSide + 1);  // rows of patches
+}
+
 void test_published_ascii() {
   IndexBoard board(2, 3);
   auto firmware = make_firmware(board, acts::Protocol::kRasterAscii);
@@ -343,6 +368,7 @@ int main() {
   test_overruns_are_counted_and_numbered();
   test_settings_are_checked();
   test_new_settings_forget_what_was_pressed();
+  test_the_board_is_told_while_an_image_is_recovered();
   test_published_ascii();
   test_commands();
   if (failures > 0) {

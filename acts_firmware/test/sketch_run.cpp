@@ -74,6 +74,7 @@ class Model final : public acts::WiredBoard {
     }
     if ((WDOG1_WCR & WDOG_WCR_WDE) != 0 && WDOG1_WSR == 0xAAAA) {
       fed_ns_ = now_ns_;
+      ++feeds_;
       WDOG1_WSR = 0;
     }
     if ((WDOG1_WCR & WDOG_WCR_WDE) != 0 && fed_ns_ >= 0) {
@@ -115,9 +116,10 @@ class Model final : public acts::WiredBoard {
   unsigned adc_bits = 0;
   unsigned adc_averaged = 0;
 
-  void report() const {
+  void report(int loops) const {
     std::printf("watchdog %u %" PRId32 "\n", static_cast<unsigned>(WDOG1_WCR),
                 static_cast<std::int32_t>(hungry_ns_ / 1000));
+    std::printf("feeds %d\nloops %d\n", feeds_, loops);
     std::printf("adc %u %u\nwrong_pins %d\nled %d %d\n", adc_bits, adc_averaged, wrong_pins_, led_ ? 1 : 0,
                 led_changes_);
   }
@@ -190,6 +192,7 @@ class Model final : public acts::WiredBoard {
   std::int64_t opened_ns_ = 0;
   std::int64_t fed_ns_ = -1;
   std::int64_t hungry_ns_ = 0;
+  int feeds_ = 0;  // how often the watchdog had been fed when the sketch took time next
   std::int64_t delay_ns_ = 0;
   bool open_ = false;
   bool reading_ = false;
@@ -255,9 +258,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   setup();
-  while (!model.ended()) {
+  int loops = 0;
+  for (; !model.ended(); ++loops) {
     loop();
   }
-  model.report();
+  model.report(loops);
   return 0;
 }

@@ -33,15 +33,21 @@ constexpr int kAdcBits = 10;
 constexpr int kAdcAveraged = 4;
 constexpr std::uint8_t kAdcPin = A0;
 
-// A loop that takes longer than this ends in a reset. Recovery of a full frame with the largest dictionary and patches
-// at every taxel may well take seconds.
+// A loop that takes longer than this ends in a reset; the watchdog knows nothing longer. Recovery of a full frame with
+// the largest dictionary and patches at every taxel may, so it is fed meanwhile.
 constexpr unsigned kWatchdogSeconds = 16;
+
+void feed_watchdog() {
+  WDOG1_WSR = 0x5555;
+  WDOG1_WSR = 0xAAAA;
+}
 
 class TeensyBoard final : public acts::Board {
  public:
   void write_pin(std::uint8_t pin, bool high) override { digitalWriteFast(pin, high ? HIGH : LOW); }
   std::uint16_t read_adc() override { return static_cast<std::uint16_t>(analogRead(kAdcPin)); }
   std::uint32_t micros() override { return ::micros(); }
+  void computing() override { feed_watchdog(); }
 
   // The number that the Teensy also gives as its USB serial number, by the same rule.
   std::uint64_t id() override {
@@ -65,11 +71,6 @@ void start_watchdog() {
   WDOG1_WMCR = 0;  // the other timer in it, which would pull a pin 16 s after power-up
   // Not while a debugger or the boot loader has stopped the processor; the two reset bits stay as they are, inactive.
   WDOG1_WCR = WDOG_WCR_WT(2 * kWatchdogSeconds - 1) | WDOG_WCR_WDA | WDOG_WCR_SRS | WDOG_WCR_WDBG | WDOG_WCR_WDE;
-}
-
-void feed_watchdog() {
-  WDOG1_WSR = 0x5555;
-  WDOG1_WSR = 0xAAAA;
 }
 
 [[noreturn]] void flicker(std::uint8_t pin) {

@@ -72,7 +72,7 @@ bool Firmware::recover_frame() {
   const std::uint64_t start_us = clock_.extend(board_.micros());
   std::size_t length = 0;
   if (output == Output::kImage) {
-    const float* counts = model_output_.image(models_.model(), frame_, settings_.touch_counts);
+    const float* counts = model_output_.image(models_.model(), frame_, settings_.touch_counts, board_);
     if (counts == nullptr) {
       return false;
     }

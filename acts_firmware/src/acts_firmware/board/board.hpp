@@ -27,6 +27,10 @@ class Board {
   // Time since the board's start [us]; wraps at 2^32.
   virtual std::uint32_t micros() = 0;
 
+  // Told again and again while the firmware recovers an image, which may take longer than a watchdog waits: a board
+  // that has one feeds it here.
+  virtual void computing() {}
+
   // Told when the firmware has recovered or classified a frame. Nothing to do where time passes by itself; a board
   // whose time is simulated lets pass here what that takes.
   virtual void computed() {}

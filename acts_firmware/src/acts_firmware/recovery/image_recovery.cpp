@@ -29,10 +29,13 @@ bool ImageRecovery::prepare(const PatchDictionary& dictionary, int rows, int col
   return fits_down && fits_across;
 }
 
-const float* ImageRecovery::recover(const SampleFrame& frame, int touch_counts, Workspace& work) {
+const float* ImageRecovery::recover(const SampleFrame& frame, int touch_counts, Workspace& work, Board* board) {
   spread_samples(frame, touch_counts, work);
   std::fill_n(work.image.begin(), rows_ * cols_, 0.0F);
   for (std::size_t row = 0; row < down_.count(); ++row) {
+    if (board != nullptr) {
+      board->computing();
+    }
     for (std::size_t col = 0; col < across_.count(); ++col) {
       if (work.pressed[row][col]) {
         recover_patch(down_.start(row), across_.start(col), work);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "acts_firmware/board/board.hpp"
 #include "acts_firmware/frame.hpp"
 #include "acts_firmware/limits.hpp"
 #include "acts_firmware/recovery/fast_omp.hpp"
@@ -40,8 +41,8 @@ class ImageRecovery {
 
   // Recovers a frame of the array prepared for, with the dictionary prepared for. Counts at or below `touch_counts` are
   // taken as 0; the image is clipped to 0 to kCountMax, and measured taxels keep their value. Returns the image,
-  // row-major, in the workspace.
-  const float* recover(const SampleFrame& frame, int touch_counts, Workspace& work);
+  // row-major, in the workspace. Tells the board, if there is one, before every row of patches.
+  const float* recover(const SampleFrame& frame, int touch_counts, Workspace& work, Board* board = nullptr);
 
  private:
   void spread_samples(const SampleFrame& frame, int touch_counts, Workspace& work) const;

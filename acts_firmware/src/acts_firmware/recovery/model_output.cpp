@@ -5,12 +5,12 @@
 
 namespace acts {
 
-const float* ModelOutput::image(const Model& dictionary, const SampleFrame& frame, int touch_counts) {
+const float* ModelOutput::image(const Model& dictionary, const SampleFrame& frame, int touch_counts, Board& board) {
   const PatchDictionary patches{dictionary.values, dictionary.columns, dictionary.patch_side, dictionary.patch_step};
   if (!recovery_.prepare(patches, frame.rows, frame.cols)) {
     return nullptr;
   }
-  return recovery_.recover(frame, touch_counts, work_.image);
+  return recovery_.recover(frame, touch_counts, work_.image, &board);
 }
 
 const ObjectResult& ModelOutput::object(const Model& library, const SampleFrame& frame, int touch_counts) {
