@@ -32,7 +32,7 @@ enum class Protocol : std::uint8_t {
   kRasterAscii,  // the authors' published raster sketch, which listens to nobody
 };
 
-// Large (about 350 KB, and the memory for models): make it static, or on the heap at the start.
+// Large (325 KB, and the memory for models): make it static, or on the heap at the start.
 class Firmware {
  public:
   Firmware(Board& board, const Wiring& wiring, Protocol protocol, ModelMemory& models);
