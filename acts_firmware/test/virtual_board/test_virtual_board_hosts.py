@@ -73,3 +73,15 @@ def test_one_that_opens_the_port_of_the_published_sketch_at_once(tmp_path: Path)
         frames = board.read_frames(3)
         assert frames[0].counts.min() >= 50 * opened_s - 2
         assert board.decoder.malformed == 0
+
+
+def test_a_program_that_opens_and_closes_the_port_of_another_changes_nothing(tmp_path: Path) -> None:
+    with BoardProcess(tmp_path) as board:
+        board.open_port()
+        frames = board.read_frames(20)
+        for _ in range(20):
+            os.close(os.open(board.link, os.O_RDWR | os.O_NOCTTY))
+            frames += board.read_frames(5)
+        assert board.decoder.malformed == board.decoder.crc_errors == board.decoder.partial == 0
+        lost = frames[-1].sequence - frames[0].sequence + 1 - len(frames)
+        assert lost == frames[-1].overruns - frames[0].overruns
