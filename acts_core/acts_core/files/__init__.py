@@ -7,7 +7,15 @@ In come paths; out come arrays, text, or sections of YAML with the line of each 
 as a whole or not at all.
 """
 
-from acts_core.files.frames_file import FramesFile, load_frames, without_contact
+from acts_core.files.frames_file import (
+    RATES,
+    FramesFile,
+    is_rate,
+    load_frames,
+    rate_hz_of,
+    recordings_of,
+    without_contact,
+)
 from acts_core.files.model_file import ModelFile
 from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
@@ -15,6 +23,7 @@ from acts_core.files.whole_file import write_whole
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
 
 __all__ = [
+    "RATES",
     "TEXT_BYTES_MAX",
     "UNPACKED_BYTES_MAX",
     "FramesFile",
@@ -22,13 +31,16 @@ __all__ = [
     "Section",
     "half_of_memory_bytes",
     "is_number",
+    "is_rate",
     "is_there",
     "load_frames",
     "npz_names",
     "path_of",
+    "rate_hz_of",
     "read_npz",
     "read_text",
     "read_yaml",
+    "recordings_of",
     "require_regular",
     "shown",
     "unpacked_bytes",

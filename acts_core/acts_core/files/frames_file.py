@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ _CHUNK = 4096
 
 _RATE_MIN_HZ, _RATE_MAX_HZ = 1e-3, 1e6
 """Other rates are mistakes: a recording at one of them lasts for months, or for less than a measurement."""
+
+RATES = f"allowed are {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
+"""Words for the rates of `is_rate` [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +109,7 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
         raise RecordingError(f"{path}: no array `frames`; {needed}")
     frames = _frames(path, given, limit_bytes)
     live = _live(path, content.get("live"), frames.shape)
-    start, length = _recordings(path, content, len(frames))
+    start, length = recordings_of(path, content, len(frames))
     label: tuple[str, ...] = ()
     if "label" in content:
         given = np.atleast_1d(content["label"])
@@ -118,7 +122,8 @@ def load_frames(path: Path, *, labels: bool = False, limit_bytes: int | None = N
     start, length = start[length > 0], length[length > 0]
     if not start.size:
         raise RecordingError(f"{path}: no recording has a frame; `length` says how many each of them has")
-    return FramesFile(frames, live, start, length, _rate_hz(path, content.get("rate_hz")), label)
+    rate_hz = rate_hz_of(path, content["rate_hz"]) if "rate_hz" in content else None
+    return FramesFile(frames, live, start, length, rate_hz, label)
 
 
 def _frames(path: Path, given: NDArray, limit_bytes: int) -> NDArray[np.uint16]:
@@ -167,7 +172,23 @@ def _live(path: Path, given: NDArray | None, shape: tuple[int, ...]) -> NDArray[
     return given.astype(bool)
 
 
-def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def recordings_of(path: Path, content: dict[str, NDArray[Any]], n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """First frame and number of frames of each recording in an npz file; one of all frames when it does not say.
+
+    Parameters
+    ----------
+    path : Path
+        The file, for messages.
+    content : dict
+        Its arrays: `start` and `length`, or `rec_start` and `rec_len`.
+    n : int
+        Number of frames of all recordings.
+
+    Raises
+    ------
+    RecordingError
+        When they are no whole numbers, or mark frames that are not there.
+    """
     start = np.atleast_1d(content.get("start", content.get("rec_start", np.array([0]))))
     length = np.atleast_1d(content.get("length", content.get("rec_len", np.array([n]))))
     for name, given in (("start", start), ("length", length)):
@@ -178,7 +199,7 @@ def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArra
             )
     if start.shape != length.shape:
         raise RecordingError(
-            f"{path}: start has {start.size} numbers, length {length.size}: needed is one per recording"
+            f"{path}: start has {start.size} numbers, length {length.size}: needed is one for every recording"
         )
     # Compared before they are converted: what int64 does not hold would come out as something else.
     outside = (start < 0) | (start > n) | (length < 0) | (length > n)
@@ -189,19 +210,25 @@ def _recordings(path: Path, content: dict[str, NDArray], n: int) -> tuple[NDArra
         first = int(np.argmax(outside))
         raise RecordingError(
             f"{path}: start and length do not mark recordings within {n} frames: the one numbered {first} starts at "
-            f"{start[first]} and has {length[first]}"
+            f"{start[first]} and has {length[first]}; none can reach beyond the {n} frames"
         )
     return start, length
 
 
-def _rate_hz(path: Path, given: NDArray | None) -> float | None:
-    if given is None:
-        return None
-    if given.size != 1 or given.dtype.kind not in "fiu" or not 0 < given.item() < np.inf:
-        raise RecordingError(f"{path}: rate_hz = {given}: needed is one positive number of frames per second")
-    rate_hz = float(given.item())
-    if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
-        raise RecordingError(
-            f"{path}: rate_hz = {rate_hz:g} frames per second; allowed are {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
-        )
-    return rate_hz
+def rate_hz_of(path: Path, given: NDArray[Any]) -> float:
+    """Frames per second by the array `rate_hz` of an npz file.
+
+    Raises
+    ------
+    RecordingError
+        When it is no rate, see `is_rate`.
+    """
+    if not is_rate(given):
+        raise RecordingError(f"{path}: rate_hz = {given} frames per second; {RATES}: needed is one positive number")
+    return float(given.item())
+
+
+def is_rate(rate_hz: NDArray[Any]) -> bool:
+    """Whether an array holds one number, and it can be frames per second."""
+    is_number = rate_hz.size == 1 and rate_hz.dtype.kind in "fiu"
+    return is_number and bool(_RATE_MIN_HZ <= rate_hz.item() <= _RATE_MAX_HZ)

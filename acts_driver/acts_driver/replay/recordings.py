@@ -16,7 +16,17 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import UNPACKED_BYTES_MAX, FramesFile, is_there, load_frames, npz_names, path_of, read_npz
+from acts_core.files import (
+    RATES,
+    UNPACKED_BYTES_MAX,
+    FramesFile,
+    is_rate,
+    is_there,
+    load_frames,
+    npz_names,
+    path_of,
+    read_npz,
+)
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import (
     MEASUREMENT_US,
@@ -30,10 +40,6 @@ from acts_core.sampling import (
 
 BOARD_RATE_HZ = 1000.0
 """Frames per second at which recorded full frames are sampled unless something else is asked."""
-
-# Others are mistakes, and their times fit no clock.
-_RATE_MIN_HZ, _RATE_MAX_HZ = 1e-3, 1e6
-_RATES = f"allowed are {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:g}"
 
 
 class Recording(Protocol):
@@ -298,8 +304,8 @@ def _rate_of(content: FramesFile, given_hz: float, path: Path) -> float:
             f"{path}: rate_hz is missing, the number of frames per second; add it to the file, or export the bag again "
             "with --rate 100; for a driver, its parameter replay_frames_hz says it as well"
         )
-    if not _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ:
-        raise RecordingError(f"{path}: {rate_hz:g} frames per second; {_RATES}")
+    if not is_rate(np.array(rate_hz)):
+        raise RecordingError(f"{path}: {rate_hz:g} frames per second; {RATES}")
     return rate_hz
 
 
@@ -314,8 +320,8 @@ def _times_us(path: Path, content: dict[str, NDArray[Any]], n: int) -> NDArray[n
         since_first_ns = stamps.astype(np.uint64) - stamps[0].astype(np.uint64)
         return (since_first_ns // 1000).astype(np.int64)
     rate_hz = content.get("rate_hz", np.array(0.0))
-    if rate_hz.size != 1 or rate_hz.dtype.kind not in "fiu" or not _RATE_MIN_HZ <= rate_hz.item() <= _RATE_MAX_HZ:
-        raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, frames per second; {_RATES}")
+    if not is_rate(rate_hz):
+        raise RecordingError(f"{path}: needed is stamp_ns (n,) or rate_hz, frames per second; {RATES}")
     return np.rint(np.arange(n) * (1e6 / rate_hz.item())).astype(np.int64)
 
 

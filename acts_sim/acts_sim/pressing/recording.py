@@ -3,8 +3,9 @@
 
 """Convert recordings of real arrays to the plain frames file that the virtual board replays.
 
-Two kinds of npz files are read. Evaluation files have ``frames`` (n, rows, cols) uint16 of 0 to 1023, ``rate_hz``, and
-optionally ``start`` and ``length`` (and ``label``) of the consecutive recordings in them, and ``live`` (rows, cols).
+Two kinds of npz files are read. Evaluation files are named as for `acts_core.files.load_frames`: ``frames`` (n, rows,
+cols), or ``image`` as in an export of a bag, of 0 to 1023, ``rate_hz``, and optionally ``start`` and ``length`` (and
+``label``) of the recordings in them.
 Figure files have single ``frames`` (n, rows, cols) of 0 to 1023, not all of them integers, with ``names``, ``kind``
 and which taxels were ``measured``.
 """
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import half_of_memory_bytes, read_npz, write_whole
+from acts_core.files import half_of_memory_bytes, rate_hz_of, read_npz, recordings_of, write_whole
 
 
 @dataclass(frozen=True)
@@ -104,7 +105,7 @@ def export_recording(
         if kind is not None:
             raise RecordingError(f"{npz_path}: has no kind of frames to choose {kind!r} from")
         chosen, labels = _choose_recordings(content, len(frames), recordings, label, max_frames, npz_path)
-        rate_hz = _rate_hz(content, npz_path)
+        rate_hz = rate_hz_of(npz_path, _need(content, "rate_hz", npz_path))
     chosen = chosen[:max_frames]
     if not len(chosen):
         raise RecordingError(f"{npz_path}: no frames are selected")
@@ -116,7 +117,9 @@ def export_recording(
 
 def _load(path: Path) -> dict[str, NDArray]:
     needed = "needed is an npz file with frames and rate_hz"
-    return read_npz(path, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
+    content = read_npz(path, error=RecordingError, hint=needed, limit_bytes=half_of_memory_bytes())
+    # As an export of a bag names them.
+    return {"frames": content["image"], **content} if "image" in content else content
 
 
 def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:
@@ -134,13 +137,6 @@ def _require_measured(content: dict[str, NDArray], frames: NDArray, chosen: NDAr
         raise RecordingError(f"{path}: some of the frames are subsampled; choose others, e.g. kind='full_raster'")
 
 
-def _rate_hz(content: dict[str, NDArray], path: Path) -> float:
-    rate = _need(content, "rate_hz", path)
-    if rate.size != 1 or rate.dtype.kind not in "iuf" or not np.isfinite(rate).all() or rate.item() <= 0:
-        raise RecordingError(f"{path}: rate_hz = {rate}; needed is one positive number")
-    return float(rate.item())
-
-
 def _choose_recordings(
     content: dict[str, NDArray],
     count: int,
@@ -149,12 +145,7 @@ def _choose_recordings(
     max_frames: int | None,
     path: Path,
 ) -> tuple[NDArray[np.intp], tuple[str, ...]]:
-    start = content.get("start", np.array([0]))
-    length = content.get("length", np.array([count]))
-    if start.ndim != 1 or start.shape != length.shape or start.dtype.kind not in "iu" or length.dtype.kind not in "iu":
-        raise RecordingError(f"{path}: start and length must be lists of whole numbers, one for every recording")
-    if len(start) and (start.min() < 0 or length.min() < 0 or (start + length).max() > count):
-        raise RecordingError(f"{path}: start and length reach beyond the {count} frames")
+    start, length = recordings_of(path, content, count)
     names = _names(content, "label", len(start), path)
     which = _which(len(start), names, recordings, label, "recordings", path)
     parts = [np.arange(start[i], start[i] + length[i]) for i in which]

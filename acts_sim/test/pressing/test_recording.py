@@ -99,6 +99,21 @@ def test_a_file_without_recordings_is_one(tmp_path: Path, out: Path) -> None:
     assert len(np.load(out)) == 6
 
 
+def test_files_are_read_as_load_frames_reads_them(tmp_path: Path, out: Path) -> None:
+    numbers = {"start": None, "length": None, "rec_start": np.array([0.0, 2.0]), "rec_len": np.array([2.0, 4.0])}
+    path = evaluation(tmp_path / "in.npz", label=None, **numbers)
+    export_recording(path, out, recordings=[1])
+    np.testing.assert_array_equal(np.load(out), np.arange(120).reshape(6, 4, 5)[2:])
+    with pytest.raises(RecordingError, match=r"allowed are 0.001 to 1e\+06"):
+        export_recording(evaluation(tmp_path / "in.npz", rate_hz=1e9), out)
+
+
+def test_frames_have_the_name_that_an_export_of_a_bag_gives_them(tmp_path: Path, out: Path) -> None:
+    image = np.arange(120, dtype=np.uint16).reshape(6, 4, 5)
+    export_recording(evaluation(tmp_path / "in.npz", frames=None, image=image), out)
+    np.testing.assert_array_equal(np.load(out), image)
+
+
 def test_single_frames_are_rounded(tmp_path: Path, out: Path) -> None:
     exported = export_recording(figures(tmp_path / "in.npz"), out, kind="full_raster", repeat=3)
     np.testing.assert_array_equal(np.load(out), np.full((3, 4, 4), 8))

@@ -151,6 +151,7 @@ def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: p
         ({"t_s": np.zeros(4)}, "not ascend"),
         ({"t_s": np.full(4, np.nan)}, "needed are `frames`"),
         ({"rate_hz": 0.0}, "neither t_s nor one rate_hz"),
+        ({"rate_hz": 1e9}, "neither t_s nor one rate_hz"),
         ({"start": [0], "length": [5]}, "beyond the 4 frames"),
         ({"start": [-1], "length": [2]}, "do not fit"),
         ({"start": [0.5], "length": [2]}, "do not fit"),
@@ -162,6 +163,12 @@ def test_files_that_do_not_fit_are_refused(tmp_path: Path, change: dict[str, Any
     np.savez(path, **{"frames": np.zeros((4, 2, 5, 5)), "rate_hz": 8.0, **change})
     with pytest.raises(RecordingError, match=message):
         read_insoles(path)
+
+
+def test_numbers_of_frames_may_be_floats_that_are_whole(tmp_path: Path) -> None:
+    path = tmp_path / "insoles.npz"
+    np.savez(path, frames=np.zeros((4, 2, 5, 5)), rate_hz=8.0, start=[0.0, 3.0], length=[3.0, 1.0])
+    assert [len(one.frames) for one in read_insoles(path)] == [3, 1]
 
 
 def test_a_file_without_frames_is_told_apart_from_frames_of_another_shape(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.files import half_of_memory_bytes, read_npz
+from acts_core.files import RATES, half_of_memory_bytes, is_rate, read_npz, recordings_of
 from acts_recon.gait import FEET, Gait, GaitConfig, GaitTracker, Step, force_and_centre, summarise
 
 Array = NDArray[np.float64]
@@ -55,13 +55,10 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
     content = read_npz(path, names, error=RecordingError, hint=_NEEDED, limit_bytes=half_of_memory_bytes())
     frames = _frames(path, content)
     time_s = _time_s(path, content, len(frames))
-    starts = np.atleast_1d(content.get("start", content.get("rec_start", np.array([0]))))
-    lengths = np.atleast_1d(content.get("length", content.get("rec_len", np.array([len(frames)]))))
-    whole = starts.dtype.kind in "iu" and lengths.dtype.kind in "iu" and starts.ndim == 1
-    if not whole or starts.shape != lengths.shape or (starts < 0).any() or (lengths < 0).any():
-        raise RecordingError(f"{path}: recordings do not fit: {_NEEDED}")
-    if ((starts > len(frames)) | (lengths > len(frames) - starts.astype(np.int64))).any():
-        raise RecordingError(f"{path}: recordings lie beyond the {len(frames)} frames: {_NEEDED}")
+    try:
+        starts, lengths = recordings_of(path, content, len(frames))
+    except RecordingError as error:
+        raise RecordingError(f"{error}; the recordings do not fit: {_NEEDED}") from error
     labels = np.atleast_1d(content.get("kind", content.get("label", np.arange(starts.size))))
     labels = labels if labels.shape == starts.shape else np.arange(starts.size)
     found = []
@@ -110,8 +107,8 @@ def _time_s(path: Path, content: dict[str, NDArray[np.generic]], count: int) -> 
             raise RecordingError(f"{path}: {name} {time_s.shape}, {time_s.dtype}: {_NEEDED}")
         return time_s.astype(np.float64)
     rate = content.get("rate_hz")
-    if rate is None or rate.size != 1 or rate.dtype.kind not in "iuf" or not 0 < rate.item() < np.inf:
-        raise RecordingError(f"{path}: neither t_s nor one rate_hz above 0: {_NEEDED}")
+    if rate is None or not is_rate(rate):
+        raise RecordingError(f"{path}: neither t_s nor one rate_hz, frames per second ({RATES}): {_NEEDED}")
     return np.arange(count) / float(rate.item())
 
 
