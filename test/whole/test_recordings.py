@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry
+from acts_core.files import export_recording
 from acts_core.skin import ForceResponse
 from acts_msgs.msg import Contact, TactileSamples
 from acts_recon.sparse import Reconstructor, load_dictionary, shipped_dictionary_path
 from acts_ros import qos
-from acts_sim.pressing import export_recording
 from acts_tools.testing.launch_runner import launched
 
 mpl.use("Agg")

@@ -7,12 +7,12 @@ In come paths; out come arrays, text, or sections of YAML with the line of each 
 as a whole or not at all.
 """
 
+from acts_core.files.board_recording import ExportedRecording, export_recording
 from acts_core.files.frames_file import (
     RATES,
     FramesFile,
     is_rate,
     load_frames,
-    rate_hz_of,
     recordings_of,
     without_contact,
 )
@@ -26,9 +26,11 @@ __all__ = [
     "RATES",
     "TEXT_BYTES_MAX",
     "UNPACKED_BYTES_MAX",
+    "ExportedRecording",
     "FramesFile",
     "ModelFile",
     "Section",
+    "export_recording",
     "half_of_memory_bytes",
     "is_number",
     "is_rate",
@@ -36,7 +38,6 @@ __all__ = [
     "load_frames",
     "npz_names",
     "path_of",
-    "rate_hz_of",
     "read_npz",
     "read_text",
     "read_yaml",

@@ -3,7 +3,7 @@
 
 """Objects pressed into the skin: foam, force response, noise, and fast events.
 
-In come objects and motions, or recordings of real arrays; out come full frames of counts.
+In come objects and motions; out come full frames of counts.
 """
 
 from acts_sim.pressing.contact_model import ContactModel, FoamConfig, Press, skin_of
@@ -12,7 +12,6 @@ from acts_sim.pressing.objects import OBJECTS, ContactObject, object_named
 from acts_sim.pressing.outlines import Field, bar, disc, ellipsoid, prism
 from acts_sim.pressing.presses import PRESS_RATE_HZ, press_over_time
 from acts_sim.pressing.pressing_arm import RATE_HZ, PressingArm, PressingConfig
-from acts_sim.pressing.recording import ExportedRecording, export_recording
 
 __all__ = [
     "EVENTS",
@@ -22,7 +21,6 @@ __all__ = [
     "RATE_HZ",
     "ContactModel",
     "ContactObject",
-    "ExportedRecording",
     "Field",
     "FoamConfig",
     "Press",
@@ -32,7 +30,6 @@ __all__ = [
     "disc",
     "ellipsoid",
     "event_recordings",
-    "export_recording",
     "object_named",
     "press_over_time",
     "prism",

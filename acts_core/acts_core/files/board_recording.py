@@ -21,7 +21,9 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
-from acts_core.files import half_of_memory_bytes, rate_hz_of, read_npz, recordings_of, write_whole
+from acts_core.files.frames_file import rate_hz_of, recordings_of
+from acts_core.files.npz_file import half_of_memory_bytes, read_npz
+from acts_core.files.whole_file import write_whole
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import RecordingError
-from acts_sim.pressing import export_recording
+from acts_core.files import export_recording
 
 pytestmark = pytest.mark.slow
 
