@@ -20,7 +20,7 @@ class ArrayError(ActsError):
 
 
 class PacketError(ActsError):
-    """Bytes from a board are not a valid packet."""
+    """Bytes from a board are not a valid packet, or bytes of a message no such message."""
 
 
 class PortError(ActsError):

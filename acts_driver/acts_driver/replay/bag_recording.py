@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from rclpy.serialization import deserialize_message
-
 from acts_core.errors import PacketError, RecordingError
 from acts_core.frames import SampleFrame
 from acts_msgs.msg import TactileSamples
 from acts_ros.bags import require_rosbags
-from acts_ros.messages import frame_of
+from acts_ros.messages import frame_of, message_of
 
 _TYPE = "acts_msgs/msg/TactileSamples"
 
@@ -78,9 +76,8 @@ class BagRecording:
         with self._open(self._path) as bag:
             for number, (_, _, data) in enumerate(bag.messages([self._topic], from_ns)):
                 try:
-                    yield frame_of(deserialize_message(data, TactileSamples))
-                # rclpy has no exception of its own for bytes that are no such message.
-                except (RuntimeError, ValueError, PacketError) as error:
+                    yield frame_of(message_of(data, TactileSamples))
+                except PacketError as error:
                     raise RecordingError(
                         f"message {number} of {self._topic} in '{self._path}' cannot be read: {error}; was it recorded "
                         "with another version of acts_msgs?"

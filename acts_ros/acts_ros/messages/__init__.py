@@ -17,6 +17,7 @@ from acts_ros.messages.contacts_cdr import (
     write_series,
 )
 from acts_ros.messages.image_cdr import ImageFields, read_image, write_image
+from acts_ros.messages.parsing import message_of
 from acts_ros.messages.regions_cdr import RegionsFields, read_regions, write_regions
 from acts_ros.messages.sample_messages import SamplesMessage, frame_of, stamp_ns_of
 from acts_ros.messages.skin_frame import check_frame_id, skin_frame
@@ -34,6 +35,7 @@ __all__ = [
     "check_frame_id",
     "frame_of",
     "header_of",
+    "message_of",
     "ns_of",
     "read_contact",
     "read_contacts",

@@ -11,8 +11,6 @@ from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any
 
-from rclpy.serialization import deserialize_message
-
 from acts_core.errors import ActsError, PacketError
 from acts_core.settings import setting
 from acts_core.words import counted
@@ -20,7 +18,7 @@ from acts_msgs.msg import SkinContact, SkinContacts
 from acts_msgs.msg import SkinState as StateMessage
 from acts_ros import qos
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.messages import header_of, set_stamp
+from acts_ros.messages import header_of, message_of, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, Counters, SkinState
@@ -145,9 +143,8 @@ class SkinContactsNode(PollingNode):
 
     def _touches(self, name: str, data: bytes) -> list[Touch]:
         try:
-            return touches(deserialize_message(data, self._kind))
-        # rclpy has no exception of its own for bytes that are no such message.
-        except (RuntimeError, ValueError):
+            return touches(message_of(data, self._kind))
+        except PacketError:
             self._refused[name, "that cannot be read"] += 1
             return []
 

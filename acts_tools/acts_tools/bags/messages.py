@@ -11,11 +11,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Image
 
 from acts_core.array import COUNT_MAX
-from acts_core.errors import RecordingError
+from acts_core.errors import PacketError, RecordingError
+from acts_ros.messages import message_of
 
 _Message = TypeVar("_Message")
 
@@ -51,14 +51,11 @@ def parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
         The bytes are no such message; `where` says which.
     """
     try:
-        message = deserialize_message(data, kind)
-    # rclpy has no exception of its own for bytes that are no such message.
-    except (RuntimeError, ValueError) as error:
+        return message_of(data, kind)
+    except PacketError as error:
         raise RecordingError(
             f"{where} cannot be read: {error}; was it recorded with another version of its package?"
         ) from error
-    assert isinstance(message, kind)
-    return message
 
 
 def is_in_counts(bag: Any, path: Path, topic: str) -> bool:

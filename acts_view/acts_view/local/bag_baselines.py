@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rclpy.serialization import deserialize_message
-
-from acts_core.errors import ArrayError, RecordingError
+from acts_core.errors import ArrayError, PacketError, RecordingError
 from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.bags.reading import open_bag
-from acts_ros.messages import baseline_of, ns_of
+from acts_ros.messages import baseline_of, message_of, ns_of
 
 _TYPE = "acts_msgs/msg/Baseline"
 
@@ -44,8 +42,7 @@ def read_baselines(path: Path, topic: str, rows: int, cols: int) -> tuple[list[B
             bag.check_definition(topic)
             for _, _, data in bag.messages([topic]):
                 found.append(_parsed(data, rows, cols))
-    # rclpy has no exception of its own for bytes that are no such message.
-    except (RecordingError, ArrayError, RuntimeError, ValueError) as error:
+    except (RecordingError, ArrayError, PacketError) as error:
         return _in_order(found), f"not all of {topic} could be read: {error}"
     return _in_order(found), ""
 
@@ -55,7 +52,7 @@ def _in_order(baselines: list[Baseline]) -> list[Baseline]:
 
 
 def _parsed(data: bytes, rows: int, cols: int) -> Baseline:
-    message = deserialize_message(data, BaselineMessage)
+    message = message_of(data, BaselineMessage)
     fields = baseline_of(message, rows, cols)
     return Baseline(
         counts=fields.counts.reshape(rows, cols),

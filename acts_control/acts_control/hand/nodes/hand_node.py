@@ -12,15 +12,16 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
 from acts_control.hand.motors import HandError, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
+from acts_core.errors import PacketError
 from acts_core.stop_signals import StopSignals
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import WARN, Report
 from acts_ros.executor import run
+from acts_ros.messages import message_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
 
@@ -56,9 +57,8 @@ class HandNode(MotorNode):
             self._refuse(f"{len(data)} bytes; at most {_COMMAND_BYTES_MAX} are read")
             return
         try:
-            message = deserialize_message(data, JointState)
-        # rclpy has no exception of its own for bytes that are no such message.
-        except (RuntimeError, ValueError) as error:
+            message = message_of(data, JointState)
+        except PacketError as error:
             self._refuse(f"it cannot be read: {error}")
             return
         if len(message.name) != len(message.position):
