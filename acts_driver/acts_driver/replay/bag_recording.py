@@ -12,9 +12,8 @@ from acts_core.errors import PacketError, RecordingError
 from acts_core.frames import SampleFrame
 from acts_msgs.msg import TactileSamples
 from acts_ros.bags import require_rosbags
+from acts_ros.bags.skin_topics import SAMPLES
 from acts_ros.messages import frame_of, message_of
-
-_TYPE = "acts_msgs/msg/TactileSamples"
 
 
 class BagRecording:
@@ -85,15 +84,15 @@ class BagRecording:
 
 
 def _choose(path: Path, topic: str, types: dict[str, str]) -> str:
-    fitting = sorted(name for name, kind in types.items() if kind == _TYPE)
+    fitting = sorted(name for name, kind in types.items() if kind == SAMPLES)
     if topic and topic not in fitting:
-        raise RecordingError(f"the bag '{path}' has no topic {topic} of {_TYPE}; it has {_listed(fitting)}")
+        raise RecordingError(f"the bag '{path}' has no topic {topic} of {SAMPLES}; it has {_listed(fitting)}")
     if not fitting or (len(fitting) > 1 and not topic):
         raise RecordingError(
-            f"the bag '{path}' has {_listed(fitting)} of {_TYPE}; needed is one: say which (the driver's "
+            f"the bag '{path}' has {_listed(fitting)} of {SAMPLES}; needed is one: say which (the driver's "
             "parameter replay_topic, or the namespace after `acts view`)"
             if fitting
-            else f"the bag '{path}' has no topic of {_TYPE}, only {_listed(sorted(types))}"
+            else f"the bag '{path}' has no topic of {SAMPLES}, only {_listed(sorted(types))}"
         )
     return topic or fitting[0]
 

@@ -15,6 +15,7 @@ from sensor_msgs.msg import Image
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import PacketError, RecordingError
+from acts_msgs.msg import Baseline, TactileSamples
 from acts_ros.messages import message_of
 
 _Message = TypeVar("_Message")
@@ -56,6 +57,39 @@ def parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
         raise RecordingError(
             f"{where} cannot be read: {error}; was it recorded with another version of its package?"
         ) from error
+
+
+def samples_with_baseline(
+    bag: Any, path: Path, topic: str, beside: str | None
+) -> Iterator[tuple[str, TactileSamples, Baseline | None]]:
+    """All samples of a topic in their order, each with words for where it is and a baseline that came before it.
+
+    Parameters
+    ----------
+    bag, path
+        As of `messages`.
+    topic, beside : str
+        Topics of the samples and of the baseline, see `acts_ros.bags.skin_topics`; None for no baseline.
+
+    Returns
+    -------
+    iterator of (str, TactileSamples, Baseline or None)
+        The baseline is None where no other has come since the samples before.
+
+    Raises
+    ------
+    RecordingError
+        A message cannot be read.
+    """
+    number = 0
+    latest: Baseline | None = None
+    for name, _, data in bag.messages([topic] if beside is None else [topic, beside]):
+        if name == beside:
+            latest = parsed(data, Baseline, f"a message of {beside} in '{path}'")
+            continue
+        where = f"message {number} of {topic} in '{path}'"
+        yield where, parsed(data, TactileSamples, where), latest
+        number, latest = number + 1, None
 
 
 def is_in_counts(bag: Any, path: Path, topic: str) -> bool:

@@ -21,7 +21,7 @@ from acts_recon.frame_pipeline import RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros.messages import baseline_of, frame_of, ns_of, stamp_ns_of
-from acts_tools.bags.messages import image_counts, messages, parsed
+from acts_tools.bags.messages import image_counts, messages, samples_with_baseline
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 
 # Without a taxel above it, an image says nothing of where the taxels lie.
@@ -91,22 +91,12 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
         Frames do not fit the layout, the baseline does not fit the frames, or a message is damaged.
     """
     recovery: FrameRecovery | None = None
-    latest: Baseline | None = None
-    number = -1
-    for name, _, data in bag.messages([topic] if beside is None else [topic, beside]):
-        if name == beside:
-            latest = parsed(data, Baseline, f"a message of {beside} in '{path}'")
-            if recovery is not None:
-                _subtract(recovery, latest, f"{beside} in '{path}'")
-            continue
-        number += 1
-        where = f"message {number} of {topic} in '{path}'"
-        samples = parsed(data, TactileSamples, where)
+    for where, samples, baseline in samples_with_baseline(bag, path, topic, beside):
         try:
             if recovery is None:
                 recovery = FrameRecovery(_settings(samples, layout))
-                if latest is not None:
-                    _subtract(recovery, latest, f"{beside} in '{path}'")
+            if baseline is not None:
+                _subtract(recovery, baseline, f"{beside} in '{path}'")
             yield _seen(recovery, samples)
         except RepeatedFrameError:
             continue

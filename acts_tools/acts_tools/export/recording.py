@@ -19,12 +19,11 @@ from acts_core.skin import layout
 from acts_core.words import counted
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
+from acts_ros.bags.skin_topics import IMAGE, SAMPLES, baseline_topic
 from acts_tools.bags.messages import is_in_counts, messages
 from acts_tools.export.frames import Seen, contacts_in, recorded_frames, recovered_frames
 from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, contact_track, contacts_track, joint_track
 
-_IMAGE = "sensor_msgs/msg/Image"
-_SAMPLES = "acts_msgs/msg/TactileSamples"
 _JOINTS = "sensor_msgs/msg/JointState"
 _REGIONS = "acts_msgs/msg/RegionContacts"
 _NS_PER_S = 1_000_000_000
@@ -221,11 +220,11 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     with open_bag(path) as bag:
         types = bag.topics()
         skin = _skin(bag, path, types, choice.skin)
-        images, samples, beside = f"{skin}/image_raw", f"{skin}/samples", f"{skin}/baseline"
+        images, samples = f"{skin}/image_raw", f"{skin}/samples"
+        baseline = baseline_topic(types, samples)
         joints = _joint_topic(path, types, choice.joints)
-        for topic in (images, samples, beside, f"{skin}/contact", f"{skin}/contacts", joints):
+        for topic in (images, samples, baseline or "", f"{skin}/contact", f"{skin}/contacts", joints):
             bag.check_definition(topic)
-        baseline = beside if beside in types else None
         joint_states = joint_track(bag, path, joints, numbers_only=choice.numbers_only) if joints else Joints()
         tracks = {
             f"{skin}/contact": contact_track(bag, path, f"{skin}/contact"),
@@ -236,9 +235,9 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
         contact, contacts, _ = tracks.values()
         other_taxels = "" if contacts.stamps_ns else _other_taxels(contact, f"{skin}/contact", choice.layout)
         unlike: tuple[str, ...] = (other_taxels,) if other_taxels else ()
-        if types.get(images) == _IMAGE and is_in_counts(bag, path, images):
+        if types.get(images) == IMAGE and is_in_counts(bag, path, images):
             frames = recorded_frames(bag, path, images)
-            if types.get(samples) == _SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
+            if types.get(samples) == SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
                 found = contacts_in(
                     recovered_frames(bag, path, samples, baseline, choice.layout), recorded_frames(bag, path, images)
                 )
@@ -279,8 +278,8 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
         {
             topic.rsplit("/", 1)[0]
             for topic, kind in types.items()
-            if (kind == _SAMPLES and topic.endswith("/samples"))
-            or (kind == _IMAGE and topic.endswith("/image_raw") and is_in_counts(bag, path, topic))
+            if (kind == SAMPLES and topic.endswith("/samples"))
+            or (kind == IMAGE and topic.endswith("/image_raw") and is_in_counts(bag, path, topic))
         }
     )
     found = [name for name in found if not (name.endswith("/view") and name.removesuffix("/view") in found)]
@@ -296,7 +295,7 @@ def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
             f"'{path}' has the skins {listed}: choose one with --skin"
             if found
             else f"'{path}' has no skin: needed is a topic image_raw (sensor_msgs/msg/Image, mono16) or samples "
-            f"({_SAMPLES}); it has {', '.join(sorted(types)) or 'none'}{f'; {bag.note}' if bag.note else ''}"
+            f"({SAMPLES}); it has {', '.join(sorted(types)) or 'none'}{f'; {bag.note}' if bag.note else ''}"
         )
     return found[0]
 

@@ -15,15 +15,13 @@ from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
 from acts_core.errors import ArrayError, RecordingError
-from acts_msgs.msg import Baseline, TactileSamples
+from acts_msgs.msg import TactileSamples
 from acts_recon.images import BaselineSubtraction
 from acts_ros.bags import require_rosbags
+from acts_ros.bags.skin_topics import IMAGE, SAMPLES, baseline_topic
 from acts_ros.messages import baseline_of
-from acts_tools.bags.messages import checked, image_counts, is_in_counts, messages, parsed
+from acts_tools.bags.messages import checked, image_counts, is_in_counts, messages, samples_with_baseline
 
-_IMAGE = "sensor_msgs/msg/Image"
-_SAMPLES = "acts_msgs/msg/TactileSamples"
-_BASELINE = "acts_msgs/msg/Baseline"
 _NEEDED = (
     "needed is one of type acts_msgs/msg/TactileSamples whose frames are rasters (every taxel measured: scheme "
     "raster), or of type sensor_msgs/msg/Image with encoding mono16 (image_raw)"
@@ -64,7 +62,7 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
             print(f"note: {bag.note}", file=sys.stderr)
         types = bag.topics()
         if topic:
-            if types.get(topic) not in (_IMAGE, _SAMPLES):
+            if types.get(topic) not in (IMAGE, SAMPLES):
                 raise RecordingError(
                     f"the bag '{path}' has {f'{types[topic]} on' if topic in types else 'no topic'} {topic}; "
                     f"{_NEEDED}. It has {_listed(sorted(types))}"
@@ -79,7 +77,7 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
                 )
             topic = fitting[0]
         bag.check_definition(topic)
-        read = _images(bag, path, topic) if types[topic] == _IMAGE else _rasters(bag, path, topic, types)
+        read = _images(bag, path, topic) if types[topic] == IMAGE else _rasters(bag, path, topic, types)
         frames = list(read)
     if not frames:
         raise RecordingError(f"the bag '{path}' has no messages on {topic}")
@@ -90,9 +88,9 @@ def bag_frames(path: Path, topic: str = "") -> tuple[NDArray[np.uint16], str]:
 
 def _is_full(bag: Any, path: Path, topic: str, kind: str) -> bool:
     """Whether the first message of a topic contains a full frame."""
-    if kind == _IMAGE:
+    if kind == IMAGE:
         return is_in_counts(bag, path, topic)
-    if kind == _SAMPLES:
+    if kind == SAMPLES:
         samples = next(messages(bag, path, topic, TactileSamples), None)
         return samples is not None and len(samples.indices) == samples.rows * samples.cols
     return False
@@ -104,18 +102,9 @@ def _images(bag: Any, path: Path, topic: str) -> Iterator[NDArray[np.uint16]]:
 
 
 def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterator[NDArray[np.uint16]]:
-    beside = f"{topic.rsplit('/', 1)[0]}/baseline"
-    topics = [topic, beside] if types.get(beside) == _BASELINE else [topic]
-    baseline: BaselineSubtraction | None = None
-    latest: Baseline | None = None
-    number = -1
-    for name, _, data in bag.messages(topics):
-        if name == beside:
-            latest, baseline = parsed(data, Baseline, f"a message of {beside} in '{path}'"), None
-            continue
-        number += 1
-        where = f"message {number} of {topic} in '{path}'"
-        samples = parsed(data, TactileSamples, where)
+    beside = baseline_topic(types, topic)
+    subtraction: BaselineSubtraction | None = None
+    for where, samples, baseline in samples_with_baseline(bag, path, topic, beside):
         size = samples.rows * samples.cols
         indices = np.asarray(samples.indices, dtype=np.uint16)
         counts = np.asarray(samples.counts, dtype=np.uint16)
@@ -126,15 +115,15 @@ def _rasters(bag: Any, path: Path, topic: str, types: dict[str, str]) -> Iterato
             )
         if indices.max() >= size:
             raise RecordingError(f"{where} holds index {indices.max()}; {size} taxels have 0 to {size - 1}")
-        if latest is not None and baseline is None:
-            baseline = BaselineSubtraction(size)
+        if baseline is not None:
+            subtraction = BaselineSubtraction(size)
             try:
-                fields = baseline_of(latest, samples.rows, samples.cols)
-                baseline.set(fields.counts, fields.valid)
+                fields = baseline_of(baseline, samples.rows, samples.cols)
+                subtraction.set(fields.counts, fields.valid)
             except ArrayError as error:
                 raise RecordingError(f"{beside} in '{path}' does not fit {topic}: {error}") from error
         frame = np.zeros(size, dtype=np.uint16)
-        frame[indices] = counts if baseline is None else baseline.apply(indices, counts)
+        frame[indices] = counts if subtraction is None else subtraction.apply(indices, counts)
         yield checked(frame.reshape(samples.rows, samples.cols), where)
 
 

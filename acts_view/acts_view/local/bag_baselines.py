@@ -11,20 +11,19 @@ from acts_core.errors import ArrayError, PacketError, RecordingError
 from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.bags.reading import open_bag
+from acts_ros.bags.skin_topics import baseline_topic
 from acts_ros.messages import baseline_of, message_of, ns_of
 
-_TYPE = "acts_msgs/msg/Baseline"
 
-
-def read_baselines(path: Path, topic: str, rows: int, cols: int) -> tuple[list[Baseline], str]:
-    """The baselines on a topic of a bag by their time, and why there are no more of them.
+def read_baselines(path: Path, samples: str, rows: int, cols: int) -> tuple[list[Baseline], str]:
+    """The baselines beside the samples of a bag by their time, and why there are no more of them.
 
     Parameters
     ----------
     path : Path
         Of the bag.
-    topic : str
-        Full name; without one of type acts_msgs/Baseline there are none, and nothing is wrong.
+    samples : str
+        Full name of the topic of the samples; without a baseline beside it there are none, and nothing is wrong.
     rows, cols : int
         Size of the array.
 
@@ -35,15 +34,17 @@ def read_baselines(path: Path, topic: str, rows: int, cols: int) -> tuple[list[B
         For a person; empty where all could be read.
     """
     found: list[Baseline] = []
+    topic = None
     try:
         with open_bag(path) as bag:
-            if bag.topics().get(topic) != _TYPE:
+            topic = baseline_topic(bag.topics(), samples)
+            if topic is None:
                 return [], ""
             bag.check_definition(topic)
             for _, _, data in bag.messages([topic]):
                 found.append(_parsed(data, rows, cols))
     except (RecordingError, ArrayError, PacketError) as error:
-        return _in_order(found), f"not all of {topic} could be read: {error}"
+        return _in_order(found), f"not all of {topic or path} could be read: {error}"
     return _in_order(found), ""
 
 

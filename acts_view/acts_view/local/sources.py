@@ -341,7 +341,7 @@ def open_recorded(
         # Late: an npz file needs nothing of ROS.
         from acts_view.local.bag_baselines import read_baselines
 
-        return read_baselines(path, f"{found}/baseline", rows, cols)
+        return read_baselines(path, found_topic, rows, cols)
 
     source = RecordedSource(path.name, recording, layout, with_outlines=with_outlines, read_baselines=read)
     return source, found or f"/{path.stem}"
