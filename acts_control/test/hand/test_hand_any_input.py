@@ -33,7 +33,7 @@ from acts_core.errors import SettingsError
 from acts_core.settings import default_of, describe
 from acts_core.skin import RegionContact
 from acts_ros.diagnostics import WARN
-from acts_ros.messages import write_regions
+from acts_ros.messages import RegionsFields, write_regions
 
 pytestmark = pytest.mark.slow
 
@@ -193,7 +193,8 @@ class Fed(NamedTuple):
         check_limits(hand.goal)
 
     def good(self) -> bytes:
-        return write_regions(round(1e9 * (self.hand.now_s + DT_S)) - 1_000_000, "palm", 1, all_regions(*GRIPPED))
+        stamp_ns = round(1e9 * (self.hand.now_s + DT_S)) - 1_000_000
+        return write_regions(RegionsFields(stamp_ns, "palm", 1, all_regions(*GRIPPED)))
 
 
 @settings(max_examples=40, deadline=None)

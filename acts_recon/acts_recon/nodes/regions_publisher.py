@@ -14,7 +14,7 @@ from acts_recon.methods import Recovery
 from acts_recon.nodes.frame_publisher import RecoveredFrame, TopicPublisher
 from acts_recon.regions import Regions
 from acts_recon.settings import ReconstructionConfig
-from acts_ros.messages import write_regions
+from acts_ros.messages import RegionsFields, write_regions
 
 
 class RegionsPublisher(TopicPublisher):
@@ -44,7 +44,8 @@ class RegionsPublisher(TopicPublisher):
             return
         recovery = self._recovery
         found = self._regions.step(frame.end_s, recovery.image, recovery.measured, recovery.age_s)
-        self._publisher.publish(write_regions(frame.stamp_ns, frame.header.frame_id, frame.sequence, found))
+        fields = RegionsFields(frame.stamp_ns, frame.header.frame_id, frame.sequence, found)
+        self._publisher.publish(write_regions(fields))
 
     def _rate_hz(self, settings: ReconstructionConfig) -> float:
         return settings.regions_rate_hz

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -32,7 +31,7 @@ class RegionsFields(NamedTuple):
     regions: list[RegionContact]
 
 
-def write_regions(stamp_ns: int, frame_id: str, sequence: int, regions: Sequence[RegionContact]) -> bytes:
+def write_regions(fields: RegionsFields) -> bytes:
     """Serialise the contacts on the patches of a skin, as rclpy does it on a little-endian machine.
 
     Raises
@@ -40,6 +39,7 @@ def write_regions(stamp_ns: int, frame_id: str, sequence: int, regions: Sequence
     PacketError
         When a number is beyond what its field holds.
     """
+    stamp_ns, frame_id, sequence, regions = fields
     head = header_bytes(stamp_ns, frame_id)
     values: list[bytes | float] = []
     lengths = []

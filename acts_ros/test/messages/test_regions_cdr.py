@@ -68,7 +68,7 @@ def message_of(skin: RegionsFields) -> RegionContacts:
 
 @given(SKINS)
 def test_regions_are_written_as_rclpy_writes_them(skin: RegionsFields) -> None:
-    data, message = write_regions(*skin), message_of(skin)
+    data, message = write_regions(skin), message_of(skin)
     assert len(data) == len(serialize_message(message))
     # As text, in which one NaN is like another. The bytes differ where fields are padded.
     assert repr(deserialize_message(data, RegionContacts)) == repr(message)
@@ -81,7 +81,7 @@ def test_regions_of_rclpy_are_read(skin: RegionsFields) -> None:
 
 @given(SKINS, st.data())
 def test_what_was_cut_off_is_refused(skin: RegionsFields, data: st.DataObject) -> None:
-    whole = write_regions(*skin)
+    whole = write_regions(skin)
     with pytest.raises(PacketError, match=r"cannot be read|encoded as"):
         read_regions(whole[: data.draw(st.integers(0, len(whole) - 1))])
 
@@ -96,7 +96,7 @@ def test_any_bytes_are_read_or_refused(data: bytes) -> None:
 
 
 def test_a_message_that_says_it_has_many_regions_is_refused_at_once() -> None:
-    data = bytearray(write_regions(0, "skin", 1, []))
+    data = bytearray(write_regions(RegionsFields(0, "skin", 1, [])))
     data[-4:] = b"\xff\xff\xff\xff"
     with pytest.raises(PacketError, match="cannot be read"):
         read_regions(bytes(data))
@@ -106,4 +106,4 @@ def test_a_message_that_says_it_has_many_regions_is_refused_at_once() -> None:
 def test_numbers_beyond_their_field_are_refused(change: dict[str, float]) -> None:
     region = RegionContact("palm", "palm_lower")._replace(**change)  # type: ignore[arg-type]
     with pytest.raises(PacketError, match="do not fit the message"):
-        write_regions(0, "skin", 0, [region])
+        write_regions(RegionsFields(0, "skin", 0, [region]))

@@ -23,7 +23,7 @@ from acts_msgs.msg import RegionContacts
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.recorder import Recorder
 from acts_ros.bags.writing import BagWriter
-from acts_ros.messages import read_regions, write_regions
+from acts_ros.messages import RegionsFields, read_regions, write_regions
 from acts_tools.bags.player import Player
 from acts_tools.testing.probe import Probe
 
@@ -63,7 +63,7 @@ def grasp() -> list[bytes]:
                 if 90 < k < 110 and name == "index_distal":
                     region = region._replace(motion_m_s=(0.0, 0.01, 0.0), slip_m=0.0004, slipping=True)
             regions.append(region)
-        messages.append(write_regions(round(1e9 * (10.0 + k * PERIOD_S)), "hand", k, regions))
+        messages.append(write_regions(RegionsFields(round(1e9 * (10.0 + k * PERIOD_S)), "hand", k, regions)))
     return messages
 
 

@@ -31,7 +31,7 @@ from acts_msgs.msg import (
     TrackedContact,
 )
 from acts_ros import qos
-from acts_ros.messages import ContactFields, write_contact, write_regions
+from acts_ros.messages import ContactFields, RegionsFields, write_contact, write_regions
 from acts_view.nodes import view_node
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
@@ -77,7 +77,8 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
         outlines.publish(Outline(number=8, x=[0.0, 0.01, math.nan], y=[0.0, 0.0, 0.02]))
         outlines.publish(Outline(number=9, x=[0.0, 0.01], y=[0.0, 0.0, 0.02]))
         contacts.publish(Contacts(contacts=[one]))
-        regions.publish(write_regions(0, "hand", 1, [RegionContact("palm", "palm_lower", 3, 1.25, slipping=True)]))
+        palm = RegionContact("palm", "palm_lower", 3, 1.25, slipping=True)
+        regions.publish(write_regions(RegionsFields(0, "hand", 1, [palm])))
         status.publish(HandStatus(state=HandStatus.STATE_HOLDING, reason="something is gripped", active=["slip"]))
         diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="hand/driver", message="no board")]))
 
@@ -216,7 +217,7 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
         bench.contact.publish(write_contact(broken))
         bench.contact.publish(b"\x00\x01\x00\x00\xff")
         contacts.publish(Contacts(contacts=[TrackedContact(force=math.nan)] * 100))
-        regions.publish(write_regions(0, "hand", 1, patches))
+        regions.publish(write_regions(RegionsFields(0, "hand", 1, patches)))
         status.publish(HandStatus(state=99, reason="r" * 10_000, active=["a"] * 1000))
         names = [f"made_up_{next(named)}" for _ in range(50)]
         diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name=name, message="m" * 900) for name in names]))
