@@ -218,59 +218,101 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     from acts_ros.bags.reading import open_bag
 
     with open_bag(path) as bag:
-        types = bag.topics()
-        skin = _skin(bag, path, types, choice.skin)
-        images, samples = f"{skin}/image_raw", f"{skin}/samples"
-        baseline = baseline_topic(types, samples)
-        joints = _joint_topic(path, types, choice.joints)
-        for topic in (images, samples, baseline or "", f"{skin}/contact", f"{skin}/contacts", joints):
-            bag.check_definition(topic)
-        joint_states = joint_track(bag, path, joints, numbers_only=choice.numbers_only) if joints else Joints()
-        tracks = {
-            f"{skin}/contact": contact_track(bag, path, f"{skin}/contact"),
-            f"{skin}/contacts": contacts_track(bag, path, f"{skin}/contacts"),
-            joints: joint_states.track,
-        }
-        left_out = {topic: track.backward for topic, track in tracks.items() if track.backward}
-        contact, contacts, _ = tracks.values()
-        other_taxels = "" if contacts.stamps_ns else _other_taxels(contact, f"{skin}/contact", choice.layout)
-        unlike: tuple[str, ...] = (other_taxels,) if other_taxels else ()
-        if types.get(images) == IMAGE and is_in_counts(bag, path, images):
-            frames = recorded_frames(bag, path, images)
-            if types.get(samples) == SAMPLES and not (contact.stamps_ns and contacts.stamps_ns):
-                found = contacts_in(
-                    recovered_frames(bag, path, samples, baseline, choice.layout), recorded_frames(bag, path, images)
-                )
-                if found is None:
-                    unlike = (
-                        f"contacts were not recorded, and are left out: with the layout {choice.layout} {samples} does "
-                        f"not give the images of {images}; export it with --layout NAME, as the driver had it",
-                    )
-                else:
-                    contact = contact if contact.stamps_ns else found[0]
-                    contacts = contacts if contacts.stamps_ns or other_taxels else found[1]
-                    left_out |= {samples: found[0].backward} if found[0].backward else {}
+        topics = _chosen_topics(bag, path, choice)
+        joints = joint_track(bag, path, topics.joints, numbers_only=choice.numbers_only) if topics.joints else Joints()
+        found = _contacts_of(bag, path, topics, choice.layout)
+        if topics.images:
+            frames = recorded_frames(bag, path, topics.images)
         else:
-            frames = recovered_frames(bag, path, samples, baseline, choice.layout)
-            if other_taxels:
+            frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice.layout)
+            if found.note:
                 frames = (replace(seen, contacts=None) for seen in frames)
+        left_out = {**found.left_out, topics.joints: joints.track.backward}
         yield Recording(
             name=str(path),
-            skin=skin,
+            skin=topics.skin,
             rate_hz=choice.rate_hz,
-            joint_columns=joint_states.columns,
-            hint=_layout_hint(bag, path, skin, choice.layout),
+            joint_columns=joints.columns,
+            hint=_layout_hint(bag, path, topics.skin, choice.layout),
             _notes=(
-                *(f"{counted(count, 'message')} of {topic} {_BACKWARD}" for topic, count in left_out.items()),
-                *unlike,
-                *joint_states.notes,
+                *(f"{counted(count, 'message')} of {topic} {_BACKWARD}" for topic, count in left_out.items() if count),
+                *([found.note] if found.note else []),
+                *joints.notes,
                 bag.note or "",
             ),
             _frames=frames,
-            _contact=contact if contact.stamps_ns else None,
-            _contacts=contacts if contacts.stamps_ns else None,
-            _joints=joint_states.track if joint_states.track.stamps_ns else None,
+            _contact=found.contact if found.contact.stamps_ns else None,
+            _contacts=found.contacts if found.contacts.stamps_ns else None,
+            _joints=joints.track if joints.track.stamps_ns else None,
         )
+
+
+@dataclass(frozen=True)
+class _Topics:
+    """What a bag has of one skin, and of the joints: full names; empty or None where it has no such topic."""
+
+    skin: str
+    images: str
+    samples: str
+    baseline: str | None
+    contact: str
+    contacts: str
+    joints: str
+
+
+def _chosen_topics(bag: Any, path: Path, choice: Choice) -> _Topics:
+    types = bag.topics()
+    skin = _skin(bag, path, types, choice.skin)
+    images, samples, contact, contacts = (f"{skin}/{name}" for name in ("image_raw", "samples", "contact", "contacts"))
+    baseline = baseline_topic(types, samples)
+    joints = _joint_topic(path, types, choice.joints)
+    for topic in (images, samples, baseline or "", contact, contacts, joints):
+        bag.check_definition(topic)
+    if types.get(images) != IMAGE or not is_in_counts(bag, path, images):
+        images = ""
+    if types.get(samples) != SAMPLES:
+        samples = ""
+    return _Topics(skin, images, samples, baseline, contact, contacts, joints)
+
+
+@dataclass(frozen=True)
+class _FoundContacts:
+    """The total contact and the single ones beside the frames; their tracks are empty where they are not known.
+
+    `left_out` counts messages of a topic that are not newer than one before; `note` says why contacts are not known.
+    """
+
+    contact: Track[Values]
+    contacts: Track[Values]
+    left_out: dict[str, int]
+    note: str
+
+
+def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str) -> _FoundContacts:
+    """The recorded contacts; beside recorded images, those that lack are found in the samples."""
+    contact = contact_track(bag, path, topics.contact)
+    contacts = contacts_track(bag, path, topics.contacts)
+    left_out = {topics.contact: contact.backward, topics.contacts: contacts.backward}
+    other_taxels = "" if contacts.stamps_ns else _other_taxels(contact, topics.contact, layout)
+    are_recorded = bool(contact.stamps_ns and contacts.stamps_ns)
+    if are_recorded or not (topics.images and topics.samples):
+        return _FoundContacts(contact, contacts, left_out, other_taxels)
+    found = contacts_in(
+        recovered_frames(bag, path, topics.samples, topics.baseline, layout),
+        recorded_frames(bag, path, topics.images),
+    )
+    if found is None:
+        note = (
+            f"contacts were not recorded, and are left out: with the layout {layout} {topics.samples} does not give "
+            f"the images of {topics.images}; export it with --layout NAME, as the driver had it"
+        )
+        return _FoundContacts(contact, contacts, left_out, note)
+    return _FoundContacts(
+        contact if contact.stamps_ns else found[0],
+        contacts if contacts.stamps_ns or other_taxels else found[1],
+        {**left_out, topics.samples: found[0].backward},
+        other_taxels,
+    )
 
 
 def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
