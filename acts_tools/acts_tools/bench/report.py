@@ -22,10 +22,7 @@ def table(report: Report) -> str:
         lines.append(title)
         lines += [f"  {figure.label:<{width}}  {figure.text:>16}" for figure in figures]
         lines.append("")
-    lines.append(conditions(report))
-    lines += [f"warning: {warning}" for warning in report["warnings"]]
-    lines += [f"problem: {problem}" for problem in report["problems"]]
-    return "\n".join(lines)
+    return "\n".join([*lines, conditions(report), *complaints(report)])
 
 
 def markdown(report: Report) -> str:
@@ -38,16 +35,25 @@ def markdown(report: Report) -> str:
             # Markdown drops the indentation of details of the line above.
             label = figure.label.replace("    ", "&nbsp;&nbsp;")
             lines.append(f"| {label} | {text} |")
-    lines += ["", conditions(report)]
-    lines += ["", *(f"Warning: {warning}." for warning in report["warnings"])] if report["warnings"] else []
-    lines += ["", *(f"Problem: {problem}." for problem in report["problems"])] if report["problems"] else []
-    return "\n".join(lines)
+    return "\n".join([*lines, "", conditions(report), *complaints(report, in_markdown=True)])
 
 
 def conditions(report: Report) -> str:
     """Date, machine and load, in one line."""
     others = ", ".join(f"{name} {one['others_cpu_percent']:.0f}" for name, one in report["measurements"].items())
     return f"{surroundings(report)}; CPU used by others meanwhile [% of one core]: {others}"
+
+
+def complaints(report: Report, *, in_markdown: bool = False) -> list[str]:
+    """Lines of its warnings and problems; in Markdown a paragraph of each."""
+    lines: list[str] = []
+    for kind in ("warning", "problem"):
+        told = report[f"{kind}s"]
+        if not in_markdown:
+            lines += [f"{kind}: {words}" for words in told]
+        elif told:
+            lines += ["", *(f"{kind.capitalize()}: {words}." for words in told)]
+    return lines
 
 
 def surroundings(report: Report) -> str:

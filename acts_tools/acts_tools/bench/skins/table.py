@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from acts_core.words import counted
-from acts_tools.bench.report import Report, surroundings
+from acts_tools.bench.report import Report, complaints, surroundings
 from acts_tools.bench.result import shortened
 
 Rows = Sequence[Sequence[str]]
@@ -22,10 +22,7 @@ def table(report: Report) -> str:
     for rows in (_skins(report), _processes(report)):
         lines += [*_plain(rows), ""]
     lines += report["verdict"]
-    lines.append(_conditions(report))
-    lines += [f"warning: {warning}" for warning in report["warnings"]]
-    lines += [f"problem: {problem}" for problem in report["problems"]]
-    return "\n".join(lines)
+    return "\n".join([*lines, _conditions(report), *complaints(report)])
 
 
 def markdown(report: Report) -> str:
@@ -35,10 +32,7 @@ def markdown(report: Report) -> str:
         head, *body = ("| " + " | ".join(row) + " |" for row in rows)
         lines += [head, "|---|" + "---:|" * (len(rows[0]) - 1), *body, ""]
     lines += [f"- {words}" for words in report["verdict"]]
-    lines += ["", _conditions(report)]
-    lines += ["", *(f"Warning: {warning}." for warning in report["warnings"])] if report["warnings"] else []
-    lines += ["", *(f"Problem: {problem}." for problem in report["problems"])] if report["problems"] else []
-    return "\n".join(lines)
+    return "\n".join([*lines, "", _conditions(report), *complaints(report, in_markdown=True)])
 
 
 def _title(report: Report) -> str:
