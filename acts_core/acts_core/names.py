@@ -65,6 +65,12 @@ def full_name(given: str, what: str = "topic") -> str:
     return name
 
 
+def own_words(words: Sequence[str]) -> list[str]:
+    """The words of a command line before ``--ros-args``: ``ros2 launch`` adds that and more to every program."""
+    own = list(words)
+    return own[: own.index("--ros-args")] if "--ros-args" in own else own
+
+
 def check_remaps(words: Sequence[str]) -> None:
     """Refuse a namespace or name of a node on a command line (``-r __ns:=/9a``) that ROS would refuse by a riddle.
 

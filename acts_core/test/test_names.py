@@ -8,7 +8,7 @@ from __future__ import annotations
 import pytest
 
 from acts_core.errors import SettingsError
-from acts_core.names import check_remaps, full_name, is_frame_name, is_short_name
+from acts_core.names import check_remaps, full_name, is_frame_name, is_short_name, own_words
 
 
 @pytest.mark.parametrize("given", ["plate/contact", "/plate/contact", "/plate/contact/"])
@@ -62,3 +62,8 @@ def test_other_words_are_left_to_ros() -> None:
     check_remaps(
         ["program", "--ros-args", "-r", "__ns:=/", "-r", "__ns:=/a/b_1", "-r", "contact:=9a", "-p", "__ns:=9a"]
     )
+
+
+def test_words_of_ros_are_left_out() -> None:
+    assert own_words(["--a", "1", "--ros-args", "-r", "__node:=x", "--", "--b"]) == ["--a", "1"]
+    assert own_words(["--a"]) == ["--a"]

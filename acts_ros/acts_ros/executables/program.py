@@ -13,6 +13,7 @@ from importlib import import_module
 from pathlib import Path
 
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
+from acts_core.names import own_words
 from acts_core.stop_signals import StopSignals
 from acts_ros.executables.missing_packages import advice_about
 from acts_ros.executables.refused import stay, take_stay_word
@@ -87,7 +88,7 @@ class Program:
 
 def _asks_for_help(words: Sequence[str]) -> bool:
     """Whether the words of a command line ask for help; ROS arguments are ignored."""
-    own = words[: words.index("--ros-args")] if "--ros-args" in words else words
+    own = own_words(words)
     return "-h" in own or "--help" in own
 
 

@@ -14,6 +14,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from acts_core.names import own_words
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel.bus import Bus
@@ -23,7 +24,7 @@ from acts_sim.dynamixel.faults import Faults
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import Motor
 from acts_sim.dynamixel.port import BusPort
-from acts_sim.shared import FileClaim, add_settings, own_words, settings_from
+from acts_sim.shared import FileClaim, add_settings, settings_from
 
 _STEP_S = 0.002
 

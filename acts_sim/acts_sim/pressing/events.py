@@ -16,8 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.errors import SettingsError
-from acts_core.registry import named
+from acts_core.registry import named, registering
 from acts_sim.pressing.contact_model import ContactModel, Press, skin_of
 from acts_sim.pressing.event_contacts import GOLF_BALL, SLIDING
 from acts_sim.pressing.objects import ContactObject
@@ -64,14 +63,7 @@ def register(name: str, recordings: int) -> Callable[[Make], Make]:
     SettingsError
         When there is an event of this name already.
     """
-
-    def enter(make: Make) -> Make:
-        if name in EVENTS:
-            raise SettingsError(f"event {name!r} is registered twice; choose another name")
-        EVENTS[name] = Event(name, recordings, make)
-        return make
-
-    return enter
+    return registering(name, EVENTS, "event", lambda make: Event(name, recordings, make))
 
 
 def event_recordings(name: str, recordings: int, seed: int) -> list[Frames]:

@@ -21,8 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from acts_core.errors import SettingsError
-from acts_core.registry import named
+from acts_core.registry import named, registering
 from acts_sim.pressing.outlines import (
     Field,
     bar,
@@ -74,14 +73,7 @@ def register(
     SettingsError
         When there is an object of this name already.
     """
-
-    def enter(gap_m: Callable[[Field, Field], Field]) -> Callable[[Field, Field], Field]:
-        if name in OBJECTS:
-            raise SettingsError(f"object {name!r} is registered twice; choose another name")
-        OBJECTS[name] = ContactObject(name, group, depth_m, gap_m)
-        return gap_m
-
-    return enter
+    return registering(name, OBJECTS, "object", lambda gap_m: ContactObject(name, group, depth_m, gap_m))
 
 
 def object_named(name: str) -> ContactObject:

@@ -6,18 +6,11 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from typing import TypeVar
 
 from acts_core.settings import default_of, describe, from_text
 
 T = TypeVar("T")
-
-
-def own_words(arguments: Sequence[str]) -> list[str]:
-    """The arguments before ``--ros-args``: ``ros2 launch`` adds that and more to every program."""
-    words = list(arguments)
-    return words[: words.index("--ros-args")] if "--ros-args" in words else words
 
 
 def add_settings(parser: argparse._ActionsContainer, settings_class: type) -> None:

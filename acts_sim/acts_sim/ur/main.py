@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
+from acts_core.names import own_words
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.shared import (
@@ -25,7 +26,6 @@ from acts_sim.shared import (
     LineSession,
     TimedRingWriter,
     add_settings,
-    own_words,
     settings_from,
 )
 from acts_sim.ur import Controller, UrControllerConfig

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from acts_core.errors import SettingsError
+from acts_core.registry import registering
 from acts_core.skin import Layout, SkinPatch
 from acts_sim.impacts import GRAVITY_M_S2, Ball, ball_named, collide, thrown
 from acts_sim.wearables.bodies import FINGER, FINGERTIPS, FOREFOOT, HEEL, MIDFOOT, PALM, TOES, held, rolled, tapped
@@ -85,14 +85,12 @@ def register(
     SettingsError
         When there is a scene of this name already.
     """
-
-    def enter(make: Make) -> Make:
-        if name in SCENES:
-            raise SettingsError(f"scene {name!r} is registered twice; choose another name")
-        SCENES[name] = SceneKind(name, figure, on, told_as, rebounds, stiffness_n_per_m3, make)
-        return make
-
-    return enter
+    return registering(
+        name,
+        SCENES,
+        "scene",
+        lambda make: SceneKind(name, figure, on, told_as, rebounds, stiffness_n_per_m3, make),
+    )
 
 
 def _near(rng: np.random.Generator, patch: SkinPatch, within_m: float) -> tuple[float, float]:

@@ -12,7 +12,7 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
-from acts_sim.shared import add_settings, own_words, settings_from
+from acts_sim.shared import add_settings, settings_from
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,3 @@ def test_help_says_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
     assert "--steps VALUE steps (1 to 9); 3" in told
     assert "whether 100 % are on; True" in told
     assert "--cores VALUE cores --q-rad" in told
-
-
-def test_words_of_ros_are_left_out() -> None:
-    assert own_words(["--a", "1", "--ros-args", "-r", "__node:=x", "--", "--b"]) == ["--a", "1"]
-    assert own_words(["--a"]) == ["--a"]

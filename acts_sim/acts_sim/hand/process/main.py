@@ -15,12 +15,13 @@ from dataclasses import asdict
 from pathlib import Path
 
 from acts_core.errors import ActsError
+from acts_core.names import own_words
 from acts_core.runtime import RealtimeConfig, enter_realtime
 from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_sim.hand.process.loop import HandWorldLoop
-from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, own_words, settings_from
+from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, settings_from
 
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
