@@ -16,11 +16,12 @@ from acts_core.runtime.process_names import process_name
 from acts_core.runtime.rate_limit import RateLimit
 from acts_core.runtime.scheduling import LogCallback, RealtimeConfig, demote_process, enter_realtime, parse_cores
 from acts_core.runtime.sequence_numbers import SequenceNumbers
-from acts_core.runtime.stamp_order import Order, StampOrder
+from acts_core.runtime.stamp_order import NS_PER_S, Order, StampOrder
 from acts_core.runtime.stream_statistics import StreamCounter
 from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link
 
 __all__ = [
+    "NS_PER_S",
     "LateFrames",
     "LogCallback",
     "Order",

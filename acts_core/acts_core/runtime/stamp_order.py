@@ -7,16 +7,17 @@ from __future__ import annotations
 
 from enum import Enum
 
-_NS_PER_S = 1_000_000_000
+NS_PER_S = 1_000_000_000
+"""Nanoseconds in a second."""
 
 # A stamp farther ahead than this does not follow the one before; in a slow stream, so many of its intervals.
-_GAP_NS = _NS_PER_S // 20
+_GAP_NS = NS_PER_S // 20
 _GAP_INTERVALS = 5
 
 # So many in a row that follow one another, but not the stream, are a stream whose clock was set, or that has paused. Of
 # them, only those of different streams are farther apart than this.
 _CONFIRMED = 5
-_SLOWEST_NS = _NS_PER_S
+_SLOWEST_NS = NS_PER_S
 
 
 class Order(Enum):

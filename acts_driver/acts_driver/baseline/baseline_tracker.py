@@ -17,15 +17,14 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX
 from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
-from acts_core.runtime import Pace
+from acts_core.runtime import NS_PER_S, Pace
 from acts_core.settings import setting, validate
 from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
 
-_NS_PER_S = 1_000_000_000
 _LARGEST_STEP = 0.05
-_HISTORY_STEP_NS = 10 * _NS_PER_S
+_HISTORY_STEP_NS = 10 * NS_PER_S
 _HISTORY_STEPS = 6
 
 # Readings of a taxel that a calibration needs.
@@ -137,7 +136,7 @@ class BaselineTracker:
         self._shape = (rows, cols)
         size = rows * cols
         self._lock = threading.Lock()
-        self._block_ns = int(self.config.tare_s * _NS_PER_S)
+        self._block_ns = int(self.config.tare_s * NS_PER_S)
         # One grows, the others are the last whole ones.
         self._blocks = [_Block(size) for _ in range(self.config.calibration_blocks + 1)]
         self._growing = 0
@@ -263,7 +262,7 @@ class BaselineTracker:
         elif now_ns - self._history[-1][0] >= _HISTORY_STEP_NS:
             self._history.append((now_ns, baseline))
         then_ns, then = self._history[0]
-        minutes = (now_ns - then_ns) / (60 * _NS_PER_S)
+        minutes = (now_ns - then_ns) / (60 * NS_PER_S)
         if now_ns - then_ns < _HISTORY_STEP_NS or not known.any():
             return None
         speed = (baseline - then)[known] / minutes
@@ -286,10 +285,10 @@ class BaselineTracker:
             return
         if since_ns < 0:
             # The clock was set back: no taxel is kept as it is for longer than after a touch now.
-            latest_ns = time_ns + int(self.config.hold_s * _NS_PER_S)
+            latest_ns = time_ns + int(self.config.hold_s * NS_PER_S)
             np.minimum(self._frozen_until_ns, latest_ns, out=self._frozen_until_ns)
         self._pace.step(time_ns * 1e-9)
-        if self._growing_since_ns >= 0 and 0 <= since_ns < self._pace.limit_s(2 * self.config.tare_s) * _NS_PER_S:
+        if self._growing_since_ns >= 0 and 0 <= since_ns < self._pace.limit_s(2 * self.config.tare_s) * NS_PER_S:
             self._growing = (self._growing + 1) % len(self._blocks)
             self._whole = min(self._whole + 1, len(self._blocks) - 1)
         else:
@@ -315,8 +314,8 @@ class BaselineTracker:
             self._measured_ns,
             self._frozen_until_ns,
             self._source is not None and config.tau_s > 0,
-            max(config.tau_s, 1e-9) * _NS_PER_S,
-            int(config.hold_s * _NS_PER_S),
+            max(config.tau_s, 1e-9) * NS_PER_S,
+            int(config.hold_s * NS_PER_S),
             _LARGEST_STEP,
         )
 

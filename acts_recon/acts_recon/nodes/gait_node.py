@@ -16,6 +16,7 @@ from typing import Any
 
 from acts_core.errors import PacketError, SettingsError
 from acts_core.names import ALLOWED, is_full_name
+from acts_core.runtime import NS_PER_S
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_core.words import counted
@@ -31,7 +32,6 @@ from acts_ros.messages import ContactFields, read_contact, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 
-_NS_PER_S = 1_000_000_000
 _PERIOD_S = 0.02
 # At 1 kHz: how long the node may be held up before contacts are lost [ms].
 _CONTACTS = 256
@@ -101,7 +101,7 @@ class GaitNode(PollingNode):
         self._received[foot] += 1
         if self._first_ns is None:
             self._first_ns = contact.stamp_ns
-        time_s = (contact.stamp_ns - self._first_ns) / _NS_PER_S
+        time_s = (contact.stamp_ns - self._first_ns) / NS_PER_S
         for step in self._tracker.step(foot, time_s, contact.force_n, contact.x_m, contact.y_m):
             self._steps[foot] += 1
             self._steps_publisher.publish(self._step_message(foot, contact, step))
@@ -112,8 +112,8 @@ class GaitNode(PollingNode):
         message = FootStep(foot=foot)
         message.header.frame_id = contact.frame_id
         set_stamp(message.header.stamp, contact.stamp_ns)
-        set_stamp(message.strike, first_ns + round(step.strike_s * _NS_PER_S))
-        set_stamp(message.toe_off, first_ns + round(step.toe_off_s * _NS_PER_S))
+        set_stamp(message.strike, first_ns + round(step.strike_s * NS_PER_S))
+        set_stamp(message.toe_off, first_ns + round(step.toe_off_s * NS_PER_S))
         message.strike_sigma, message.toe_off_sigma = step.strike_sd_s, step.toe_off_sd_s
         message.stance, message.swing = step.stance_s, step.swing_s or 0.0
         message.peak_force = step.peak_force

@@ -10,14 +10,13 @@ import time
 import numpy as np
 from rclpy.node import Node
 
-from acts_core.runtime import SequenceNumbers
+from acts_core.runtime import NS_PER_S, SequenceNumbers
 from acts_msgs.msg import ContactSeries
 from acts_recon.contacts import Contact
 from acts_ros import qos
 from acts_ros.messages import ContactFields, SeriesFields, write_series
 
 _LONGEST = 1024
-_NS_PER_S = 1_000_000_000
 
 
 class SeriesPublisher:
@@ -81,7 +80,7 @@ class SeriesPublisher:
         if not self._stamps_ns:
             return
         newest_ns = self._stamps_ns[-1]
-        age_s = (newest_ns - np.array(self._stamps_ns, np.int64)) / _NS_PER_S
+        age_s = (newest_ns - np.array(self._stamps_ns, np.int64)) / NS_PER_S
         series = SeriesFields(
             newest=ContactFields(newest_ns, frame_id, self._sequence, *self._newest),
             age_s=age_s.astype(np.float32),

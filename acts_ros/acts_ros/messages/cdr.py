@@ -18,7 +18,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from acts_core.errors import PacketError
-from acts_ros.messages.stamps import NS_PER_S
+from acts_core.runtime import NS_PER_S
 
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"

@@ -11,8 +11,9 @@ import numpy as np
 
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
+from acts_core.runtime import NS_PER_S
 from acts_msgs.msg import TactileSamples
-from acts_ros.messages.stamps import NS_PER_S, ns_of, set_stamp
+from acts_ros.messages.stamps import ns_of, set_stamp
 
 _US_PER_S = 1_000_000
 _SCHEMES = {int(scheme): scheme for scheme in Scheme}

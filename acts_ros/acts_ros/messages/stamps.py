@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Time
 
-NS_PER_S = 1_000_000_000
+from acts_core.runtime import NS_PER_S
 
 
 def ns_of(stamp: Time) -> int:

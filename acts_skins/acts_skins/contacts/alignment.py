@@ -12,12 +12,11 @@ from enum import Enum
 from typing import Generic, TypeVar
 
 from acts_core.errors import SettingsError
-from acts_core.runtime import Pace
+from acts_core.runtime import NS_PER_S, Pace
 from acts_core.settings import setting, validate
 
 F = TypeVar("F")
 
-_NS_PER_S = 1_000_000_000
 # Limit of frames that wait for other skins: more than any `align_s` needs at 1 kHz.
 _MAX_WAITING = 1024
 # Intervals between the frames of a slow skin after which it is lost.
@@ -160,8 +159,8 @@ class Aligner(Generic[F]):
 
     def __init__(self, names: Sequence[str], config: AlignmentConfig) -> None:
         self._config = config
-        self._align_ns = round(config.align_s * _NS_PER_S)
-        self._future_ns = round(config.future_s * _NS_PER_S)
+        self._align_ns = round(config.align_s * NS_PER_S)
+        self._future_ns = round(config.future_s * NS_PER_S)
         self._skins: dict[str, _Skin[F]] = {name: _Skin() for name in names}
         self._now_ns: int | None = None
         self._time_ns = 0
@@ -185,7 +184,7 @@ class Aligner(Generic[F]):
         self._look_at_clock(now_ns)
         skin, counters = self._skins[name], self.counters[name]
         counters.frames += 1
-        counters.late_s = (now_ns - stamp_ns) / _NS_PER_S
+        counters.late_s = (now_ns - stamp_ns) / NS_PER_S
         if stamp_ns > now_ns + self._future_ns:
             counters.future += 1
             counters.ahead_s = -counters.late_s
@@ -193,7 +192,7 @@ class Aligner(Generic[F]):
             counters.out_of_order += 1
         else:
             skin.newest_ns = stamp_ns
-            skin.pace.step(stamp_ns / _NS_PER_S)
+            skin.pace.step(stamp_ns / NS_PER_S)
             skin.waiting.append((stamp_ns, frame))
 
     def step(self, now_ns: int) -> Aligned[F]:
@@ -202,7 +201,7 @@ class Aligner(Generic[F]):
         fresh = [
             skin.newest_ns
             for skin in self._skins.values()
-            if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_after_s(skin) * _NS_PER_S
+            if skin.newest_ns is not None and now_ns - skin.newest_ns <= self._stale_after_s(skin) * NS_PER_S
         ]
         if not fresh:
             # The remaining frames are returned with the present time.
@@ -222,7 +221,7 @@ class Aligner(Generic[F]):
         while skin.waiting and skin.waiting[0][0] <= self._time_ns:
             skin.chosen = skin.waiting.popleft()
         stale_after_s = self._stale_after_s(skin)
-        silent_s = None if skin.newest_ns is None else max(now_ns - skin.newest_ns, 0) / _NS_PER_S
+        silent_s = None if skin.newest_ns is None else max(now_ns - skin.newest_ns, 0) / NS_PER_S
         if silent_s is not None and silent_s > skin.pace.limit_s(self._config.lost_after_s, _LOST_INTERVALS):
             skin.chosen = None
         elif skin.chosen is None:
@@ -233,7 +232,7 @@ class Aligner(Generic[F]):
             return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s, stale_after_s)
         state = SkinState.FRESH if silent_s <= stale_after_s else SkinState.STALE
         stamp_ns, frame = skin.chosen
-        age_s = max(now_ns - stamp_ns, 0) / _NS_PER_S
+        age_s = max(now_ns - stamp_ns, 0) / NS_PER_S
         return AlignedSkin(name, state, stamp_ns, age_s, frame, silent_s, stale_after_s)
 
     def _look_at_clock(self, now_ns: int) -> None:

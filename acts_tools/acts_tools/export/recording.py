@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.runtime import NS_PER_S
 from acts_core.skin import layout
 from acts_core.words import counted
 from acts_msgs.msg import RegionContacts
@@ -26,7 +27,6 @@ from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, con
 
 _JOINTS = "sensor_msgs/msg/JointState"
 _REGIONS = "acts_msgs/msg/RegionContacts"
-_NS_PER_S = 1_000_000_000
 _BACKWARD = "left out, not newer than one before: was a clock set?"
 NO_JOINTS = "none"
 """In place of a topic of joint states: none is exported."""
@@ -137,7 +137,7 @@ class Recording:
         first_ns, made = 0, 0
         before: Seen | None = None
         for seen in self._ascending():
-            if before is not None and seen.stamp_ns - before.stamp_ns > _PAUSE_MAX_S * _NS_PER_S and self.rate_hz:
+            if before is not None and seen.stamp_ns - before.stamp_ns > _PAUSE_MAX_S * NS_PER_S and self.rate_hz:
                 pause_s = (seen.stamp_ns - before.stamp_ns) * 1e-9
                 raise RecordingError(
                     f"'{self.name}' has no frame of {self.skin or '/'} for {pause_s:.0f} s; "
@@ -183,7 +183,7 @@ class Recording:
                 self.backward += 1
 
     def _due_ns(self, first_ns: int, number: int) -> int:
-        return first_ns + round(number * _NS_PER_S / self.rate_hz)
+        return first_ns + round(number * NS_PER_S / self.rate_hz)
 
     def _row(self, stamp_ns: int, first_ns: int, seen: Seen) -> Row:
         contact_ns, contact = (seen.stamp_ns, seen.contact) if self._contact is None else self._contact.at(stamp_ns)
