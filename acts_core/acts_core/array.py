@@ -18,6 +18,9 @@ MAX_SIDE = 64
 COUNT_MAX = 1023
 """Largest ADC count: the board reads 10 bit."""
 
+TOUCH_COUNTS = 60
+"""A taxel above is pressed where nothing else is said, as in the paper's recognition of objects [counts]."""
+
 
 @dataclass(frozen=True)
 class ArrayGeometry:

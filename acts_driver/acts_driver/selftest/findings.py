@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.settings import setting, validate
 
 
@@ -57,7 +58,9 @@ class Thresholds:
     noise_ratio: float = setting(3.0, "noise over that of the median taxel that is a warning", minimum=1.0)
     noise_warn_counts: float = setting(5.0, "and at least so much", minimum=0.0)
     noise_fail_counts: float = setting(20.0, "noise that is a fault: a third of the touch threshold", minimum=0.0)
-    high_counts: float = setting(60.0, "untouched reading that is a fault: the touch threshold", minimum=1.0)
+    high_counts: float = setting(
+        float(TOUCH_COUNTS), "untouched reading that is a fault: the touch threshold", minimum=1.0
+    )
     rate_share: float = setting(0.98, "least share of the rate that the board could have", minimum=0.0, maximum=1.0)
     lost_share: float = setting(0.001, "largest share of frames lost", minimum=0.0, maximum=1.0)
     drift_ppm: float = setting(200.0, "largest drift of the board's clock against the host's", minimum=0.0)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from acts_core.array import COUNT_MAX
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS
 from acts_core.settings import setting, validate
 from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS
 
@@ -16,7 +16,9 @@ from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS
 class BlobConfig:
     """Settings of contacts with numbers; the node sets all but `err_together`, which is no parameter."""
 
-    touch_counts: int = setting(60, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX)
+    touch_counts: int = setting(
+        TOUCH_COUNTS, "counts above which a taxel becomes pressed", minimum=0, maximum=COUNT_MAX
+    )
     hysteresis_counts: int = setting(
         10, "a pressed taxel is released at this many counts less; never below 0", minimum=0, maximum=COUNT_MAX
     )

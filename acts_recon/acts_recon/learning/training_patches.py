@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_recon.sparse import patch_starts
 
@@ -21,7 +22,7 @@ def random_patches(
     n_patches: int,
     *,
     size: int = 8,
-    touch_counts: float = 60.0,
+    touch_counts: float = TOUCH_COUNTS,
     min_active: int = 16,
     rng: np.random.Generator,
 ) -> NDArray[np.float32]:

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import TOUCH_COUNTS, ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, Response
 from acts_recon.fusion import FusionConfig
 from acts_recon.images import NOISE_COUNTS, PlacedSamples
@@ -39,7 +39,7 @@ class SkinSetup:
     geometry: ArrayGeometry
     layout: Layout | None = None
     response: Response = field(default_factory=ForceResponse)
-    touch_counts: int = 60
+    touch_counts: int = TOUCH_COUNTS
     noise_counts: float = FusionConfig().noise_counts
 
     @property

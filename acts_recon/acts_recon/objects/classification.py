@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_recon.objects import classification_kernels as kernels
@@ -35,7 +35,9 @@ BOARD_COLUMNS = 2
 class ClassifierConfig:
     """Settings of the classification; the defaults are the paper's."""
 
-    touch_counts: int = setting(60, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
+    touch_counts: int = setting(
+        TOUCH_COUNTS, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX
+    )
     max_columns: int = setting(
         0, "library columns that explain a frame at most; 0: a quarter as many as samples", minimum=0, maximum=1024
     )

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from acts_core.array import COUNT_MAX, MAX_SIDE
+from acts_core.array import COUNT_MAX, MAX_SIDE, TOUCH_COUNTS
 from acts_core.errors import ObjectLibraryError
 from acts_core.files import ModelFile
 
@@ -143,7 +143,7 @@ class ObjectLibrary:
 
 
 def build_object_library(
-    frames: ArrayLike, labels: Sequence[str], *, touch_counts: int = 60, provenance: str = ""
+    frames: ArrayLike, labels: Sequence[str], *, touch_counts: int = TOUCH_COUNTS, provenance: str = ""
 ) -> ObjectLibrary:
     """Make a library of full frames, one column a frame; the paper takes them from the middle of contacts.
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import TOUCH_COUNTS, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, Response, force_table
 from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of, require_times
@@ -110,7 +110,7 @@ class OutlineTracer:
         self,
         geometry: ArrayGeometry,
         response: Response | None = None,
-        touch_counts: float = 60.0,
+        touch_counts: float = TOUCH_COUNTS,
         noise_counts: float = NOISE_COUNTS,
         config: OutlinesConfig | None = None,
         layout: Layout | None = None,

@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import Layout, RegionContact, Response, Vector, force_table
 from acts_recon.images import NOISE_COUNTS
@@ -51,7 +52,7 @@ class Regions:
         self,
         layout: Layout,
         response: Response,
-        touch_counts: float = 60.0,
+        touch_counts: float = TOUCH_COUNTS,
         noise_counts: float = NOISE_COUNTS,
         slip: SlipConfig | None = None,
         slip_rate_hz: float = 250.0,

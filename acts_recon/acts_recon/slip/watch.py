@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
 from acts_recon.images import LONGEST_PAUSE_S
@@ -87,7 +88,7 @@ class SlipWatch:
         patches: Sequence[SkinPatch],
         config: SlipConfig | None = None,
         noise_counts: float = NOISE_COUNTS,
-        pressed_counts: float = 60.0,
+        pressed_counts: float = TOUCH_COUNTS,
     ) -> None:
         self.config = config = SlipConfig() if config is None else config
         for patch in patches:

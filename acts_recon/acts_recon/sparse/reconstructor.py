@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS, ArrayGeometry
 from acts_core.settings import setting, validate
 from acts_core.skin import Layout
 from acts_recon.images import PlacedSamples, borders_of
@@ -25,7 +25,9 @@ from acts_recon.sparse.patches import patch_layout
 class ReconstructorConfig:
     """Settings of the recovery; the defaults are the paper's ("Sparse Recovery and Tactile Reconstruction")."""
 
-    touch_counts: int = setting(60, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX)
+    touch_counts: int = setting(
+        TOUCH_COUNTS, "counts above which a taxel is pressed; others are 0", minimum=0, maximum=COUNT_MAX
+    )
     patch_step: int = setting(4, "distance of neighbouring patches in taxels", minimum=1, maximum=64)
     sparsity_ratio: float = setting(SPARSITY_RATIO, "atoms per measured taxel of a patch", minimum=0.01, maximum=1.0)
     keep_measured: bool = setting(True, "measured taxels keep their measured value in the image")

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import TOUCH_COUNTS, ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, Response, force_table
 from acts_recon.images import (
     LEAST_NOISE_COUNTS,
@@ -79,7 +79,7 @@ class SpectrumAnalyser:
         self,
         geometry: ArrayGeometry,
         response: Response | None = None,
-        touch_counts: float = 60.0,
+        touch_counts: float = TOUCH_COUNTS,
         noise_counts: float = NOISE_COUNTS,
         config: SpectraConfig | None = None,
         layout: Layout | None = None,

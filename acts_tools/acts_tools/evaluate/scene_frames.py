@@ -18,7 +18,7 @@ from acts_tools.firmware.board_sampler import sampler_of
 FOLLOW_COUNTS = 15
 """Threshold above which tracking follows a taxel, just above the noise of a reading (docs/recovery.md)."""
 
-TOUCH_COUNTS = 25
+DETECTOR_TOUCH_COUNTS = 25
 """A taxel above is pressed, for our detectors: eight times the noise of a reading."""
 
 

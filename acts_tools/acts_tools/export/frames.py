@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sensor_msgs.msg import Image
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ActsError, ArrayError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
 from acts_recon.frame_pipeline import RepeatedFrameError
@@ -24,8 +25,6 @@ from acts_ros.messages import baseline_of, frame_of, ns_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, samples_with_baseline
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 
-# Without a taxel above it, an image says nothing of where the taxels lie.
-_TOUCH_COUNTS = 60
 # Cosine between images of the same touches; they may be recovered by other methods, or with another baseline.
 _LEAST_LIKENESS = 0.5
 
@@ -153,7 +152,8 @@ class _Likeness:
         """Compare two images; a recorded one without touch does not tell."""
         if recovered.shape != recorded.shape:
             self._have_same_shape = False
-        elif recorded.max() >= _TOUCH_COUNTS:
+        # Without a touch, an image says nothing of where the taxels lie.
+        elif recorded.max() >= TOUCH_COUNTS:
             a, b = recovered.ravel().astype(np.float64), recorded.ravel().astype(np.float64)
             self._product += float(a @ b)
             self._recovered += float(a @ a)

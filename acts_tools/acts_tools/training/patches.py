@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_recon.learning import prune_coherent, random_patches
@@ -28,7 +28,7 @@ class PatchChoice:
 
     patch_size: int = setting(8, "side of a patch in taxels", minimum=2, maximum=32)
     min_active: int = setting(4, "pressed taxels that a patch needs; paper: 16", minimum=1, maximum=32**2)
-    touch_counts: float = setting(60.0, "touch threshold", minimum=0, maximum=COUNT_MAX - 1)
+    touch_counts: float = setting(float(TOUCH_COUNTS), "touch threshold", minimum=0, maximum=COUNT_MAX - 1)
     coherence: float = setting(0.99, "patches with a larger coherence are pruned", minimum=0, maximum=1)
 
     def __post_init__(self) -> None:

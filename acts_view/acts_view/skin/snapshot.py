@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import MAX_SIDE
+from acts_core.array import MAX_SIDE, TOUCH_COUNTS
 from acts_core.errors import ActsError, ArrayError
 from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
 from acts_view.skin.arrangement import arrangement
@@ -123,7 +123,7 @@ class SkinShape:
     cols: int = 32
     pitch_m: float = 0.0
     row_pitch_m: float = 0.0
-    touch_counts: int = 60
+    touch_counts: int = TOUCH_COUNTS
     force_full_scale_counts: float = ForceResponse.full_scale_counts
     force_dead_n: float = ForceResponse.dead_n
     force_half_n: float = ForceResponse.half_n

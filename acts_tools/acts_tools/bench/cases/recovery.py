@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS
 from acts_core.sampling import Sampler, SamplingConfig, measure_in
 from acts_recon.sparse import (
     SPARSITY_RATIO,
@@ -47,7 +47,6 @@ from acts_tools.bench.workbench import Workbench
 from acts_tools.training.frames import model_frames
 
 M = 55
-TOUCH_COUNTS = 60
 FRAMES = 10
 CALLS = 50
 """Repetitions of FastOMP in a turn, because it is much faster than the others."""

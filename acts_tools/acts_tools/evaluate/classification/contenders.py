@@ -10,7 +10,7 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import TOUCH_COUNTS, ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_core.sampling import SamplingConfig
 from acts_recon.classifiers import CLASSIFIERS, FusedImageRecogniser, ObjectRecogniser, SrcRecogniser
@@ -20,9 +20,6 @@ from acts_recon.objects import ImageClassifierConfig, ObjectLibrary
 PAPER, ACTS = "paper", "acts"
 SCHEMES = ("adaptive", "tracking")
 """Of the paper's method, and of all others."""
-
-TOUCH_COUNTS = 60
-"""The paper's touch threshold: its library, samples and search ignore lower counts. Contact begins there."""
 
 UNKNOWN_NOISE = 0.0
 """Of a recording whose noise is not known, as the node's parameter `noise_counts` [counts]."""

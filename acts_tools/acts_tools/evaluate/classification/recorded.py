@@ -11,11 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_core.words import counted
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.classification.contenders import SCHEMES, TOUCH_COUNTS, contenders
+from acts_tools.evaluate.classification.contenders import SCHEMES, contenders
 from acts_tools.evaluate.classification.trials import accuracy, answers
 from acts_tools.evaluate.images.options import require_frames
 

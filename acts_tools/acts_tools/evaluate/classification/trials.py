@@ -18,12 +18,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.sampling import MEASUREMENT_US
 from acts_recon.fusion import known_noise
 from acts_recon.objects import ImageClassifierConfig, ObjectLibrary, build_object_library
 from acts_sim.pressing import RATE_HZ as RECORDED_HZ
 from acts_sim.pressing import ContactObject, FoamConfig, PressingArm, PressingConfig
-from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS, Contender, contenders
+from acts_tools.evaluate.classification.contenders import Contender, contenders
 from acts_tools.evaluate.statistics import wilson
 from acts_tools.firmware.board_sampler import BoardSampler
 from acts_tools.percentiles import percentiles

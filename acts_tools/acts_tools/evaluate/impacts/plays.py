@@ -12,7 +12,7 @@ from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.impacts import SCENE_RATE_HZ, Scene
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
-from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, TOUCH_COUNTS, Frame, frames_of
+from acts_tools.evaluate.scene_frames import DETECTOR_TOUCH_COUNTS, FOLLOW_COUNTS, Frame, frames_of
 
 
 def frames_of_paper(scene: Scene, m: int, noise_counts: float, seed: int) -> Iterator[Frame]:
@@ -47,7 +47,7 @@ class Ours:
     def __init__(self, scheme: str, m: int, noise_counts: float) -> None:
         self.scheme = scheme
         self._m, self._noise_counts = m, noise_counts
-        settings = ReconstructionSettings(touch_counts=TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
+        settings = ReconstructionSettings(touch_counts=DETECTOR_TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
         self._recovery = settings.recovery()
         self._detector = settings.impact_detector(self._recovery)
 

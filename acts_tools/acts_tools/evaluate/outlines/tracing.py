@@ -22,7 +22,6 @@ from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, frames_of
 
 Array = NDArray[np.float64]
 
-TOUCH_COUNTS = 50
 SCHEME = "tracking"
 PAPER_SCHEMES = {"tennis": "adaptive", "block": "adaptive", "balloon": "random"}
 """As in the paper's figure 6."""
@@ -57,7 +56,7 @@ class Traced:
 
 def our_outlines(shown: SoftContact, m: int, noise_counts: float, seed: int, scheme: str = SCHEME) -> list[Outline]:
     """All that `OutlineTracer` tells of a scene."""
-    settings = ReconstructionSettings(touch_counts=TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
+    settings = ReconstructionSettings(touch_counts=PAPER_TOUCH_COUNTS, noise_counts=known_noise(noise_counts))
     recovery = settings.recovery()
     tracer = settings.outline_tracer(recovery)
     found: list[Outline] = []

@@ -17,7 +17,7 @@ from acts_recon.spectra import Spectrum, SpectrumAnalyser
 from acts_sim.pressing import FoamConfig, skin_of
 from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration, vibration
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
-from acts_tools.evaluate.scene_frames import FOLLOW_COUNTS, TOUCH_COUNTS, frame_rate_hz, frames_of
+from acts_tools.evaluate.scene_frames import DETECTOR_TOUCH_COUNTS, FOLLOW_COUNTS, frame_rate_hz, frames_of
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def shown(motor: Motor, m: int, rng: np.random.Generator) -> Vibration:
 
 def our_spectra(shown: Vibration, scheme: str, m: int, noise_counts: float, seed: int) -> tuple[Spectrum, ...]:
     """What `SpectrumAnalyser` tells of the samples of a second."""
-    analyser = SpectrumAnalyser(ArrayGeometry(), touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
+    analyser = SpectrumAnalyser(ArrayGeometry(), touch_counts=DETECTOR_TOUCH_COUNTS, noise_counts=noise_counts)
     for frame in frames_of(shown.frames, VIBRATION_RATE_HZ, scheme, m, FOLLOW_COUNTS, noise_counts, seed):
         analyser.add(frame.indices, frame.counts, frame.end_s, frame.duration_s)
     return analyser.spectra()
@@ -135,7 +135,9 @@ def _of_one_taxel(
     frames: NDArray[np.uint16], rate_hz: float, row: int, col: int, noise_counts: float, seed: int
 ) -> tuple[Spectrum, ...]:
     rows, cols = frames.shape[1:]
-    analyser = SpectrumAnalyser(ArrayGeometry(rows, cols), touch_counts=TOUCH_COUNTS, noise_counts=noise_counts)
+    analyser = SpectrumAnalyser(
+        ArrayGeometry(rows, cols), touch_counts=DETECTOR_TOUCH_COUNTS, noise_counts=noise_counts
+    )
     chosen: dict[str, Any] = {"fixed_row": row, "fixed_col": col, "fixed_taxels": 1}
     for frame in frames_of(frames, rate_hz, "fixed", ONE_TAXEL_M, FOLLOW_COUNTS, noise_counts, seed, **chosen):
         analyser.add(frame.indices, frame.counts, frame.end_s, frame.duration_s, may_repeat=True)

@@ -15,7 +15,7 @@ from acts_recon.images import BaselineSubtraction
 from acts_recon.impacts import Impact
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.wearables import WORN_RATE_HZ, WornScene
-from acts_tools.evaluate.scene_frames import TOUCH_COUNTS, Frame, frames_of
+from acts_tools.evaluate.scene_frames import DETECTOR_TOUCH_COUNTS, Frame, frames_of
 
 SCHEME = "tracking"
 THRESHOLD_COUNTS = 60
@@ -38,7 +38,7 @@ class Watcher:
             rows=arranged.matrix_rows,
             cols=arranged.matrix_cols,
             layout=arranged.name,
-            touch_counts=TOUCH_COUNTS,
+            touch_counts=DETECTOR_TOUCH_COUNTS,
             noise_counts=known_noise(noise_counts),
         )
         self.recovery = settings.recovery()

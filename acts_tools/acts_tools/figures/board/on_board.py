@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from acts_core.array import TOUCH_COUNTS
 from acts_core.sampling import SamplingConfig
 from acts_recon.objects import BOARD_COLUMNS, Classifier, ClassifierConfig, build_object_library
 from acts_sim.pressing import OBJECTS, PressingArm
-from acts_tools.evaluate.classification.contenders import TOUCH_COUNTS
 from acts_tools.evaluate.images.recovery import Recording
 from acts_tools.figures.figure import Figure
 from acts_tools.figures.published import PublishedData

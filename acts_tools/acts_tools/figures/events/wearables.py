@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse
 from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene
-from acts_tools.evaluate.scene_frames import TOUCH_COUNTS, frames_of
+from acts_tools.evaluate.scene_frames import DETECTOR_TOUCH_COUNTS, frames_of
 from acts_tools.evaluate.wearables.watching import SCHEME, THRESHOLD_COUNTS, Watcher
 from acts_tools.evaluate.wearables.wearables_command import scene_of, tally
 from acts_tools.figures.figure import Figure
@@ -69,7 +69,7 @@ def _panels(shown: WornScene) -> list[Panel]:
     ):
         onsets += [1e3 * one.onset_s for one in watcher.step(frame) if one.is_over]
         image = watcher.recovery.image
-        force_n = float(response.force_n(np.where(image > TOUCH_COUNTS, image, 0.0)).sum())
+        force_n = float(response.force_n(np.where(image > DETECTOR_TOUCH_COUNTS, image, 0.0)).sum())
         if force_n > max(forces, default=0.0):
             peak = image.copy()
         times.append(1e3 * frame.end_s)
