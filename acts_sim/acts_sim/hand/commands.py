@@ -134,7 +134,8 @@ def _poke(world: HandWorld, words: list[str]) -> None:
     speed, travel = _number(words, 2, 50.0, 500.0, 0.1), _number(words, 3, 10.0, 50.0, 0.0)
     row = _number(words, 4, (patch.rows - 1) / 2, patch.rows - 1, 0.0)
     col = _number(words, 5, (patch.cols - 1) / 2, patch.cols - 1, 0.0)
-    world.tip.poke(patch.name, radius_m, speed * _MM, travel * _MM, row=row, col=col)
+    start = _number(words, 6, 5.0, _MOST_MM, 0.0)
+    world.tip.poke(patch.name, radius_m, speed * _MM, travel * _MM, start * _MM, row, col)
 
 
 def _withdraw(world: HandWorld, _words: list[str]) -> None:
@@ -153,7 +154,7 @@ _KNOWN: dict[str, tuple[str, int, Callable[[HandWorld, list[str]], None]]] = {
     "pull": ("pull FX_N FY_N FZ_N RAMP_MS", 3, _pull),
     "load": ("load TIMES_WEIGHT RAMP_MS", 1, _load),
     "shake": ("shake AXIS MM HZ SECONDS", 4, _shake),
-    "poke": ("poke PATCH sharp|blunt|RADIUS_MM SPEED_MM_S TRAVEL_MM ROW COL", 2, _poke),
+    "poke": ("poke PATCH sharp|blunt|RADIUS_MM SPEED_MM_S TRAVEL_MM ROW COL START_MM", 2, _poke),
     "withdraw": ("withdraw", 0, _withdraw),
     **{word: (f"{word} ID", 1, _motor_fault(word)) for word in MOTOR_FAULTS},
 }

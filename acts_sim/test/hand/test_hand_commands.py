@@ -55,6 +55,13 @@ def test_a_tip_of_any_allowed_radius_is_felt(radius_mm: float) -> None:
     assert run(world, 0.07).patches["palm"].tip_force_n > 0.0
 
 
+@pytest.mark.parametrize(("line", "start_m"), [("", 0.005), (" 3.5 3.5 2", 0.002), (" 3.5 3.5 0", 0.0)])
+def test_a_tip_starts_as_high_above_the_skin_as_the_command_says(line: str, start_m: float) -> None:
+    world = HandWorld(HandWorldConfig(object="none"))
+    carry_out(world, f"poke palm sharp 50 2{line}")
+    assert run(world, STEP_S).tip_depth_m == pytest.approx(0.05 * STEP_S - start_m, abs=2e-5)
+
+
 def test_a_tip_that_is_thicker_than_its_rod_is_long_is_refused(any_world: HandWorld) -> None:
     with pytest.raises(SettingsError, match=r"'20\.1': allowed is a number from 0\.2 to 20"):
         carry_out(any_world, "poke palm 20.1")

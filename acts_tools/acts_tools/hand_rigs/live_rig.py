@@ -299,11 +299,10 @@ class LiveTip:
         radius_m: float,
         speed_m_s: float,
         travel_m: float,
-        start_m: float = 0.005,
-        row: float | None = None,
-        col: float | None = None,
+        start_m: float,
+        row: float,
+        col: float,
     ) -> None:
-        """See `acts_sim.hand.tip.Tip.poke`; whatever `start_m` says, it starts 5 mm above the skin."""
-        where = "" if row is None or col is None else f" {row:.3f} {col:.3f}"
-        numbers = f"{1e3 * radius_m:g} {1e3 * speed_m_s:g} {1e3 * travel_m:g}"
-        self.rig.do(f"poke {patch} {numbers}{where}", f"poke {patch}")
+        """See `acts_sim.hand.tip.Tip.poke`."""
+        numbers = f"{1e3 * radius_m:g} {1e3 * speed_m_s:g} {1e3 * travel_m:g} {row:.3f} {col:.3f} {1e3 * start_m:g}"
+        self.rig.do(f"poke {patch} {numbers}", f"poke {patch}")

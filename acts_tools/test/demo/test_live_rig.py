@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -15,9 +16,9 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
 from acts_core.errors import LaunchError
 from acts_core.skin import layout
-from acts_sim.hand import COLUMN, HandWorldConfig, row_width
+from acts_sim.hand import COLUMN, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_tools.hand_rigs.live import LiveHand
-from acts_tools.hand_rigs.live_rig import LiveRig
+from acts_tools.hand_rigs.live_rig import LiveRig, LiveTip
 from acts_tools.hand_rigs.recording import HandRecording, StatusSample
 
 STEP_S = 0.002
@@ -86,6 +87,18 @@ def test_a_hand_that_sank_is_open_before_it_grasps(ends_in: HandState) -> None:
     assert rig.state is ends_in
     assert hand.asked == ["release", "grasp"]
     assert np.abs(hand.q_when_asked_to_grasp - OPEN_RAD).max() < 0.06
+
+
+def test_a_tip_starts_where_it_does_in_one_process() -> None:
+    lines: list[str] = []
+    rig = SimpleNamespace(do=lambda line, _mark: lines.append(line))
+    worlds = [HandWorld(HandWorldConfig(object="none")) for _ in range(2)]
+    LiveTip(cast(LiveRig, rig)).poke("index_medial", 0.0005, 0.05, 0.006, start_m=0.002, row=3.25, col=2.5)
+    carry_out(worlds[0], lines[0])
+    worlds[1].tip.poke("index_medial", 0.0005, 0.05, 0.006, start_m=0.002, row=3.25, col=2.5)
+    for world in worlds:
+        world.step()
+    assert worlds[0].truth.tip_depth_m == pytest.approx(worlds[1].truth.tip_depth_m, abs=1e-9)
 
 
 def test_a_hand_that_lost_its_motors_is_asked_again_to_open_but_not_for_ever() -> None:
