@@ -22,7 +22,7 @@ from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Header
 
 from acts_core.errors import RecordingError
-from acts_core.files import load_frames
+from acts_core.files import export_recording, load_frames
 from acts_driver.replay import ReplayOptions
 from acts_driver.replay import open_recording as open_samples
 from acts_msgs.msg import Baseline, Contact, Contacts, TactileSamples, TrackedContact
@@ -251,6 +251,13 @@ def test_what_was_exported_at_a_rate_can_be_evaluated(bag: Path, tmp_path: Path)
     assert recorded.rate_hz == 100.0
     assert np.array_equal(recorded.frames, [pressed(n) for n in (2, 3, 4)])
     assert len(list(open_samples(ReplayOptions(out)).frames())) > 0
+
+
+def test_what_was_exported_at_a_rate_can_be_pressed_into_a_virtual_board(bag: Path, tmp_path: Path) -> None:
+    out = tmp_path / "touch.npz"
+    assert main(["export", str(bag), "--to", "npz", "--rate", "100", "-o", str(out)]) == 0
+    assert export_recording(out, tmp_path / "touch.npy").rate_hz == 100.0
+    assert np.array_equal(np.load(tmp_path / "touch.npy"), [pressed(n) for n in (2, 3, 4)])
 
 
 def test_what_was_exported_without_a_rate_says_how_to_be_of_use(
