@@ -7,17 +7,21 @@ from __future__ import annotations
 
 import os
 import re
+import zlib
 from io import BytesIO
 from pathlib import Path
 from typing import cast
 
 from rosbags.interfaces import Connection, ConnectionExtRosbag2
 from rosbags.rosbag2 import StoragePlugin, Writer
-from rosbags.rosbag2.storage_mcap import Channel, McapWriter, write_channel, write_string
+from rosbags.rosbag2.storage_mcap import Channel, McapWriter, write_channel, write_string, write_uint32
 
 # Readers of rosbag2 accept any version and read the fields they know. Up to 8 the quality of service is a text with
 # numbers; 9 has a list with names, on which Humble and Iron fail. 6 to 8 add fields that Humble ignores.
 _METADATA_VERSION = 8
+
+# Of the checksum in a chunk's record: after its kind, its length, two times and the size when unpacked [bytes].
+_CHECKSUM_OFFSET = 1 + 8 + 8 + 8 + 8
 
 _DISTRIBUTION_LINE = re.compile(r"^( *ros_distro:) rosbags$", re.MULTILINE)
 
@@ -39,10 +43,17 @@ class McapFile(McapWriter):
         write_channel(self.chunk.bio, channel, self.schemas)
 
     def close_chunk(self) -> None:
-        """Close the pending chunk; one without messages has the times 0, as MCAP requires."""
+        """Close the pending chunk with its checksum; one without messages has the times 0, as MCAP requires."""
         if not self.chunk.msgs:
             self.chunk.message_start_time = 0
+        checksum = zlib.crc32(self.chunk.bio.getbuffer())
+        begin = self.bio.tell()
         super().close_chunk()
+        # rosbags writes 0, which means that there is none.
+        end = self.bio.tell()
+        self.bio.seek(begin + _CHECKSUM_OFFSET)
+        write_uint32(self.bio, checksum)
+        self.bio.seek(end)
 
     def close(self, version: int, metadata: str) -> None:
         """Write the index."""

@@ -216,6 +216,23 @@ def test_what_comes_before_damage_is_read_before_the_error(tmp_path: Path) -> No
     assert got[:10] == messages[:10]
 
 
+@settings(deadline=None)
+@given(share=st.floats(0.0, 1.0, exclude_max=True), bit=st.integers(0, 7), close=st.booleans())
+def test_a_bit_that_is_wrong_in_a_chunk_is_no_message(share: float, bit: int, close: bool) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "bag/bag.mcap"
+        messages = write_bag(path.parent, 20, close=close)
+        data = bytearray(path.read_bytes())
+        begin, end = data.index(messages[10]) - 31, data.index(messages[14]) + len(messages[14])
+        data[begin + int(share * (end - begin))] ^= 1 << bit
+        path.write_bytes(data)
+        got: list[bytes] = []
+        with pytest.raises(RecordingError, match=f"{path.parent}.*Chunk checksum mismatch"):  # noqa: PT012
+            with open_bag(path.parent) as bag:
+                got.extend(data for _, _, data in bag.messages(["/word"]))
+        assert got in ([], messages[:10])
+
+
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
