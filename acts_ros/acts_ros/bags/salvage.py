@@ -1,10 +1,13 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Read an MCAP file that was cut off anywhere, up to its last complete record.
+"""Read an MCAP file that was cut off or damaged anywhere, up to the last record before that.
 
 An MCAP file is a magic number and then records: one byte of kind, eight of length, the content. Readers look for a
 footer at the end, which a killed recorder has not written; it is added in memory. Nothing on the disk is changed.
+
+A file system that lost its power may keep the length of a file and lose what was in it. So records of the right length
+are looked into as well.
 """
 
 from __future__ import annotations
@@ -15,29 +18,106 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
+from rosbags.rosbag2.errors import ReaderError
+
 from acts_core.errors import RecordingError
+from acts_ros.bags.storages import check_description, unpacked_chunk
 
 MAGIC = b"\x89MCAP0\r\n"
 _HEADER = struct.Struct("<BQ")
-_FOOTER, _CHUNK, _DATA_END = 0x02, 0x06, 0x0F
+_FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _MESSAGE_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x07, 0x0F
 # Times of the first and the last message, size when unpacked.
 _CHUNK_HEAD = struct.Struct("<QQQ")
+# Channel, number, time of recording and of publishing.
+_MESSAGE_HEAD = struct.Struct("<HIQQ")
+_INDEX_HEAD = struct.Struct("<HI")
 # A footer without summary: readers then read all records.
 _NO_SUMMARY = _HEADER.pack(_FOOTER, 20) + bytes(20) + MAGIC
 
 
-def end_of_whole_records(stream: BinaryIO) -> int:
-    """Offset after the last complete record of the data section [bytes].
+def end_of_sound_records(stream: BinaryIO) -> tuple[int, str | None]:
+    """Find where the records end that can be read.
+
+    Parameters
+    ----------
+    stream : BinaryIO
+        The file.
+
+    Returns
+    -------
+    int
+        Offset after the last complete record of the data section that is not damaged [bytes].
+    str or None
+        What is wrong with the next one; None where there is none, or where it is cut off.
 
     Raises
     ------
     RecordingError
         It is no MCAP file.
     """
-    end = len(MAGIC)
-    for _, start, length in _whole_records(stream):
-        end = start + length
-    return end
+    end, channels, before = len(MAGIC), set[int](), 0
+    for kind, start, length in _whole_records(stream):
+        try:
+            if kind == _MESSAGE_INDEX:
+                stream.seek(start)
+                _check_index(stream.read(_INDEX_HEAD.size), length, before)
+            elif kind == _CHUNK:
+                stream.seek(start)
+                _check_chunk(unpacked_chunk(stream.read(length)), channels)
+            else:
+                stream.seek(start)
+                _check_record(kind, stream.read(_looked_into(kind, length)), length, channels)
+        except (RecordingError, ReaderError) as damage:
+            return end, str(damage)
+        end, before = start + length, kind
+    return end, None
+
+
+def _check_chunk(content: bytes, channels: set[int]) -> None:
+    """Refuse a chunk whose unpacked content is not complete records."""
+    at = 0
+    while at < len(content):
+        if at + _HEADER.size > len(content):
+            raise RecordingError("a chunk ends inside a record")
+        kind, length = _HEADER.unpack_from(content, at)
+        at += _HEADER.size
+        if at + length > len(content):
+            raise RecordingError("a chunk ends inside a record")
+        _check_record(kind, content[at : at + _looked_into(kind, length)], length, channels)
+        at += length
+
+
+def _looked_into(kind: int, length: int) -> int:
+    """How much of a record is looked into [bytes]: of messages, which are most of the file, the head."""
+    return length if kind in (_SCHEMA, _CHANNEL) else min(length, _MESSAGE_HEAD.size)
+
+
+def _check_record(kind: int, content: bytes, length: int, channels: set[int]) -> None:
+    """Refuse a record that makes no sense; note the channels that are announced."""
+    if not kind or kind == _CHUNK:
+        raise RecordingError(f"a record is of the kind {kind} where none can be")
+    if kind == _MESSAGE:
+        if length < _MESSAGE_HEAD.size:
+            raise RecordingError("a message is too short")
+        channel, *_ = _MESSAGE_HEAD.unpack(content)
+        if channel not in channels:
+            raise RecordingError(f"a message is of the channel {channel}, which is not known")
+    elif kind in (_SCHEMA, _CHANNEL):
+        try:
+            check_description(content, is_channel=kind == _CHANNEL)
+        except Exception as error:  # rosbags raises errors of many types on damaged files
+            raise RecordingError(f"a topic or its type is described wrongly ({error})") from error
+        if kind == _CHANNEL:
+            channels.add(int.from_bytes(content[:2], "little"))
+
+
+def _check_index(head: bytes, length: int, before: int) -> None:
+    """Refuse an index of messages that does not follow its chunk: the chunk is another record now."""
+    if before not in (_CHUNK, _MESSAGE_INDEX) or len(head) < _INDEX_HEAD.size:
+        raise RecordingError("an index of messages does not follow a chunk")
+    _, size = _INDEX_HEAD.unpack(head)
+    if _INDEX_HEAD.size + size != length:
+        raise RecordingError("an index of messages has another length than it says")
 
 
 def largest_chunk(stream: BinaryIO) -> int:
@@ -77,16 +157,22 @@ def _whole_records(stream: BinaryIO) -> Iterator[tuple[int, int, int]]:
         at += length
 
 
-class WholeRecords:
-    """Opens an MCAP file up to its last complete record, with a footer after it.
+class SoundRecords:
+    """Opens an MCAP file up to the last complete record before any damage, with a footer after it.
 
     Parameters
     ----------
     path : Path
         The file.
+
+    Attributes
+    ----------
+    damage : str or None
+        For the user: where it is damaged, and how; None before it is opened, and where it is cut off at most.
     """
 
     def __init__(self, path: Path) -> None:
+        self.damage: str | None = None
         self._path = path
 
     def __str__(self) -> str:
@@ -96,10 +182,13 @@ class WholeRecords:
         """Open it for reading."""
         stream = self._path.open("rb")
         try:
-            return io.BufferedReader(_Spliced(stream, end_of_whole_records(stream), _NO_SUMMARY))
+            end, damage = end_of_sound_records(stream)
         except RecordingError:
             stream.close()
             raise
+        if damage is not None:
+            self.damage = f"{self._path.name} from byte {end} on: {damage}"
+        return io.BufferedReader(_Spliced(stream, end, _NO_SUMMARY))
 
 
 class _Spliced(io.RawIOBase):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Collection, Generator, Iterable
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,42 @@ def _unpack_chunk(kind: str, data: bytes, size: int) -> bytes:
 
 
 storage_mcap.DECOMPRESSORS.update({kind: partial(_unpack_chunk, kind) for kind in ("lz4", "zstd")})
+
+
+def unpacked_chunk(content: bytes) -> bytes:
+    """Unpack the content of a chunk's record and check its sum, if it has one.
+
+    Raises
+    ------
+    RecordingError, ReaderError
+        It is damaged.
+    """
+    record = BytesIO(content)
+    _, _, size, checksum = storage_mcap.deserialize_qqqi(storage_mcap.read_exact(record, 28))
+    kind = storage_mcap.read_bytes(record).decode(errors="replace")
+    (packed_size,) = storage_mcap.deserialize_uint64(storage_mcap.read_exact(record, 8))
+    if record.tell() + packed_size != len(content):
+        raise ReaderError("a chunk has another length than it says")
+    return storage_mcap.decompress(record.read(), kind, size, checksum)
+
+
+def check_description(content: bytes, *, is_channel: bool) -> None:
+    """Refuse the record of a channel or of a schema that cannot be read.
+
+    Raises
+    ------
+    Exception
+        Of many types, as rosbags raises them.
+    """
+    record = BytesIO(content)
+    storage_mcap.read_exact(record, 4 if is_channel else 2)
+    storage_mcap.read_string(record)
+    storage_mcap.read_string(record)
+    if is_channel:
+        storage_mcap.get_qos(storage_mcap.read_bytes(record))
+    else:
+        storage_mcap.read_string(record)
+
 
 Message = tuple[Connection, int, bytes]
 """Topic, stamp [ns] and serialised message."""

@@ -14,7 +14,7 @@ from typing import Any, cast
 from rosbags.interfaces import Connection
 
 from acts_core.errors import RecordingError
-from acts_ros.bags.salvage import WholeRecords
+from acts_ros.bags.salvage import SoundRecords
 from acts_ros.bags.storages import McapFileReader, SqliteFileReader
 
 SUFFIXES = (".mcap", ".db3")
@@ -23,7 +23,7 @@ FileReader = McapFileReader | SqliteFileReader
 
 
 class UnfinishedBag:
-    """The complete records of one or more files, one file after another.
+    """The complete records of one or more files, one file after another, of each up to the first that is damaged.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class UnfinishedBag:
     connections : list of Connection
         Topics, each once.
     unread : list of str
-        For the user: files in which nothing can be read, with the reason.
+        For the user: files in which nothing can be read, and from where on others are damaged, with the reason.
 
     Raises
     ------
@@ -70,12 +70,18 @@ class UnfinishedBag:
 
     def _open(self, path: Path) -> None:
         # Of a path, rosbags uses only `open`.
-        reader = SqliteFileReader(path) if path.suffix == ".db3" else McapFileReader(cast(Any, WholeRecords(path)))
+        records = SoundRecords(path)
+        reader = SqliteFileReader(path) if path.suffix == ".db3" else McapFileReader(cast(Any, records))
         try:
             reader.open()
         except Exception as damage:  # noqa: BLE001  rosbags raises errors of many types on damaged files
-            self.unread.append(f"{path.name}: {damage}")
+            self.unread.append(records.damage or f"{path.name}: {damage}")
             return
+        if records.damage is not None:
+            self.unread.append(records.damage)
+            if not reader.connections:
+                reader.close()
+                return
         self._readers.append(reader)
         for connection in reader.connections:
             self._add(connection)

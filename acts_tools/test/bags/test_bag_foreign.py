@@ -18,6 +18,7 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 from acts_core.errors import RecordingError
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
+from acts_ros.bags.salvage import _whole_records
 from acts_ros.bags.unpacking import unpack, unpacked_bytes, zstd
 
 TYPE = "std_msgs/msg/String"
@@ -210,6 +211,38 @@ def test_what_is_compressed_is_unpacked(plugin: StoragePlugin, mode: Compression
     found, note = read(path)
     assert found == [(stamp_ns, message(stamp_ns)) for stamp_ns in range(1, 40)]
     assert note is None
+
+
+@pytest.mark.parametrize("mode", [CompressionMode.NONE, CompressionMode.STORAGE])
+def test_what_comes_before_a_damaged_chunk_is_read_of_a_recorder_that_was_killed(
+    mode: CompressionMode, tmp_path: Path
+) -> None:
+    path = write(tmp_path / "bag", range(1, 1500), mode=mode)
+    (path / "metadata.yaml").unlink()
+    file = path / "bag.mcap"
+    with file.open("rb") as stream:
+        chunks = [(start, length) for kind, start, length in _whole_records(stream) if kind == 0x06]
+    assert len(chunks) == 3
+    data = bytearray(file.read_bytes())
+    start, length = chunks[1]
+    data[start + length // 2 : start + length] = bytes(length - length // 2)
+    file.write_bytes(data)
+    found, note = read(path)
+    assert 100 < len(found) < 1000
+    assert [stamp_ns for stamp_ns, _ in found] == list(range(1, len(found) + 1))
+    assert note is not None
+    assert "not read: bag.mcap from byte " in note
+
+
+def test_records_that_are_zeros_end_a_file_without_chunks(tmp_path: Path) -> None:
+    file = tmp_path / "fastwrite_0.mcap"
+    content = mcap([(1, message(1)), (2, message(2))], "", "")
+    end = content.index(message(2)) - 31
+    file.write_bytes(content[:end] + bytes(5000))
+    found, note = read(file)
+    assert found == [(1, message(1))]
+    assert note is not None
+    assert f"not read: fastwrite_0.mcap from byte {end} on: " in note
 
 
 def test_messages_that_are_compressed_and_do_not_say_so_are_refused(tmp_path: Path) -> None:
