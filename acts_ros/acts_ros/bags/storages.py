@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import heapq
+import tempfile
 from collections.abc import Collection, Generator, Iterable
 from functools import partial
 from io import BytesIO
@@ -19,6 +20,7 @@ from rosbags.rosbag2.reader import DirectoryReader
 from rosbags.rosbag2.storage_mcap import McapReader, Schema
 from rosbags.rosbag2.storage_sqlite3 import Sqlite3Reader
 
+from acts_ros.bags.sqlite_log import has_log, merged_copy
 from acts_ros.bags.unpacking import CHUNK_BYTES_MAX, unpack
 
 
@@ -125,8 +127,34 @@ class SqliteFileReader(Sqlite3Reader):
     """
 
     def __init__(self, path: Any) -> None:
-        # rosbags makes an URI of it, in which these characters mean something else.
-        super().__init__(Path(str(path).replace("%", "%25").replace("?", "%3f").replace("#", "%23")))
+        super().__init__(_for_uri(path))
+        self._original = Path(path)
+        self._folder: tempfile.TemporaryDirectory[str] | None = None
+
+    def open(self) -> None:
+        """Open it; where its recorder was killed, a copy with all that it had written.
+
+        Raises
+        ------
+        RecordingError, ReaderError
+            It cannot be read.
+        """
+        if not has_log(self._original):
+            super().open()
+            return
+        self._folder = tempfile.TemporaryDirectory(prefix="acts_bag_")
+        try:
+            self.path = _for_uri(merged_copy(self._original, Path(self._folder.name)))
+            super().open()
+        except BaseException:
+            self._folder.cleanup()
+            raise
+
+    def close(self) -> None:
+        """Close it."""
+        super().close()
+        if self._folder is not None:
+            self._folder.cleanup()
 
     def messages(
         self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
@@ -164,6 +192,11 @@ class SqliteFileReader(Sqlite3Reader):
     def _select(self, query: str) -> list[Any]:
         assert self.dbconn is not None
         return [value for (value,) in self.dbconn.execute(query)]
+
+
+def _for_uri(path: Path) -> Path:
+    """A path of which rosbags can make an URI, in which some characters mean something else."""
+    return Path(str(path).replace("%", "%25").replace("?", "%3f").replace("#", "%23"))
 
 
 class FolderReader(DirectoryReader):

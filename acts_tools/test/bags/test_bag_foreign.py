@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import re
 import shutil
+import sqlite3
 import struct
 from collections.abc import Iterable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -117,14 +119,49 @@ def test_sqlite_files_are_read_whatever_the_name_of_their_folder(tmp_path: Path,
     ],
 )
 def test_sqlite_files_that_hold_something_else_are_refused(tmp_path: Path, change: str, said: str) -> None:
-    import sqlite3
-
     path = write(tmp_path / "bag", [1], StoragePlugin.SQLITE3)
     with sqlite3.connect(path / "bag.db3") as base:
         base.executescript(change)
     base.close()
     with pytest.raises(RecordingError, match=re.escape(said)):
         read(path / "bag.db3")
+
+
+def killed_sqlite(path: Path, stamps_ns: Iterable[int]) -> Path:
+    """A bag of a recorder that was killed: the messages after the first are in the file that SQLite writes to first."""
+    file = write(path, [1], StoragePlugin.SQLITE3) / f"{path.name}.db3"
+    (path / "metadata.yaml").unlink()
+    kept = path.with_name("kept")
+    kept.mkdir()
+    with closing(sqlite3.connect(file)) as base:
+        base.execute("PRAGMA journal_mode=WAL")
+        base.executemany(
+            "INSERT INTO messages (topic_id, timestamp, data) VALUES (1, ?, ?)",
+            [(stamp_ns, message(stamp_ns)) for stamp_ns in stamps_ns],
+        )
+        base.commit()
+        for one in (file, Path(f"{file}-wal")):  # closing it would put them together
+            shutil.copyfile(one, kept / one.name)
+    assert len(list(kept.iterdir())) == 2
+    shutil.rmtree(path)
+    return kept.rename(path)
+
+
+def test_what_sqlite_had_not_put_into_the_file_yet_is_read(tmp_path: Path) -> None:
+    path = killed_sqlite(tmp_path / "bag", range(2, 100)).rename(tmp_path / "run#1")
+    before = {file.name: file.read_bytes() for file in path.iterdir()}
+    found, _ = read(path)
+    assert found == [(stamp_ns, message(stamp_ns)) for stamp_ns in range(1, 100)]
+    assert read(path / "bag.db3")[0] == found
+    assert {file.name: file.read_bytes() for file in path.iterdir()} == before
+
+
+def test_nothing_is_read_of_a_file_that_cannot_be_put_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = killed_sqlite(tmp_path / "bag", range(2, 100))
+    usage = shutil.disk_usage(tmp_path)._replace(free=50_000)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _folder: usage)
+    with pytest.raises(RecordingError, match=r"are still in bag.db3-wal. To read them, both are copied to"):
+        read(path)
 
 
 def idl_of(name: str) -> str:
