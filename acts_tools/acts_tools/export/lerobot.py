@@ -175,7 +175,10 @@ class LeRobotWriter:
             kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
             return pa.array([{"bytes": _png(one), "path": None} for one in values], kind)
         column = pa.array(values.ravel())
-        return column if values.ndim == 1 else pa.FixedSizeListArray.from_arrays(column, values.shape[1])
+        # lerobot reads a column of the shape [1], such as that of a single joint, as plain numbers.
+        if feature["shape"] == [1]:
+            return column
+        return pa.FixedSizeListArray.from_arrays(column, values.shape[1])
 
     def _write(self, name: str, columns: dict[str, Any]) -> None:
         path = self._folder / name
