@@ -194,9 +194,11 @@ def _features_of(rows: Sequence[Row], recording: Recording) -> tuple[Features, d
     skin = recording.skin.strip("/").replace("/", "_") or "skin"
     image = np.stack([row.image for row in rows])
     height, width = image.shape[1:]
-    grey = np.rint(image * (255.0 / COUNT_MAX)).astype(np.uint8)
+    greys = np.rint(np.arange(COUNT_MAX + 1) * (255.0 / COUNT_MAX)).astype(np.uint8)
+    grey = greys.take(image, mode="clip")
     columns: dict[str, NDArray[Any]] = {
-        f"observation.images.{skin}": np.repeat(grey[..., np.newaxis], 3, axis=-1),
+        # The three channels are one in memory.
+        f"observation.images.{skin}": np.broadcast_to(grey[..., np.newaxis], (*grey.shape, 3)),
         # In one dimension, as all that is no picture: lerobot reads matrices, but its tools cannot write them.
         f"observation.tactile.{skin}": image.reshape(len(rows), -1).astype(np.float32),
     }

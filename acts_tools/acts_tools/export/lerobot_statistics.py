@@ -15,6 +15,8 @@ Statistics = dict[str, dict[str, NDArray[Any]]]
 """For each column min, max, mean, std, count and the quantiles q01, q10, q50, q90, q99."""
 
 _QUANTILES = (0.01, 0.10, 0.50, 0.90, 0.99)
+_KINDS = ("min", "max", "mean", "std", *(f"q{round(100 * share):02d}" for share in _QUANTILES))
+_COLUMNS_AT_ONCE = 64
 
 
 def statistics_of(values: NDArray[Any], is_picture: bool) -> dict[str, NDArray[Any]]:
@@ -29,20 +31,45 @@ def statistics_of(values: NDArray[Any], is_picture: bool) -> dict[str, NDArray[A
     """
     count = np.array([len(values)])
     if is_picture:
-        values = values.reshape(-1, values.shape[-1]) / 255.0
+        channels = [_of_pixels(values[..., channel]) for channel in range(values.shape[-1])]
+        return {
+            **{kind: np.array([one[kind] for one in channels]).reshape(-1, 1, 1) for kind in _KINDS},
+            "count": count,
+        }
+    # In double precision all numbers of a long recording would take several times the memory of the recording.
+    rows = values.reshape(len(values), -1)
+    parts = [
+        _of_columns(rows[:, first : first + _COLUMNS_AT_ONCE]) for first in range(0, rows.shape[1], _COLUMNS_AT_ONCE)
+    ]
+    return {**{kind: np.concatenate([part[kind] for part in parts]) for kind in _KINDS}, "count": count}
+
+
+def _of_columns(values: NDArray[Any]) -> dict[str, NDArray[np.float64]]:
+    """Of each column of numbers [shape=(n, k)]: arrays [shape=(k,)]."""
     numbers = values.astype(np.float64)
-    found = {
-        "min": numbers.min(axis=0),
-        "max": numbers.max(axis=0),
-        "mean": numbers.mean(axis=0),
-        "std": numbers.std(axis=0),
-    }
     quantiles = np.quantile(numbers, _QUANTILES, axis=0)
-    found |= {f"q{round(100 * q):02d}": one for q, one in zip(_QUANTILES, quantiles, strict=True)}
-    found = {kind: np.atleast_1d(one) for kind, one in found.items()}
-    if is_picture:
-        found = {kind: one.reshape(-1, 1, 1) for kind, one in found.items()}
-    return {**found, "count": count}
+    moments = (numbers.min(axis=0), numbers.max(axis=0), numbers.mean(axis=0), numbers.std(axis=0))
+    return dict(zip(_KINDS, [*moments, *quantiles], strict=True))
+
+
+def _of_pixels(frames: NDArray[np.uint8]) -> dict[str, float]:
+    """Of all pixels of one channel [shape=(n, height, width)], from 0 to 1, by how often each of their values comes."""
+    counts = np.zeros(256, dtype=np.int64)
+    for frame in frames:
+        counts += np.bincount(frame.ravel(), minlength=256)
+    levels = np.arange(256) / 255.0
+    below = counts.cumsum()
+    n_pixels = int(below[-1])
+    mean = float(counts @ levels) / n_pixels
+    std = float(np.sqrt(counts @ (levels - mean) ** 2 / n_pixels))
+    lowest, highest = levels[counts > 0][[0, -1]]
+    quantiles = []
+    for share in _QUANTILES:
+        # As `np.quantile`: between the two pixels beside this place in their order.
+        place = share * (n_pixels - 1)
+        left, right = levels[np.searchsorted(below, [int(place), min(int(place) + 1, n_pixels - 1)], side="right")]
+        quantiles.append(float(left + (right - left) * (place - int(place))))
+    return dict(zip(_KINDS, [float(lowest), float(highest), mean, std, *quantiles], strict=True))
 
 
 def pooled(episodes: Sequence[Statistics]) -> Statistics:

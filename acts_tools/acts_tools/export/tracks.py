@@ -5,14 +5,13 @@
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ from acts_ros.messages import ns_of
 from acts_tools.bags.messages import messages
 
 Values = NDArray[np.float64]
+Names = tuple[str, ...]
 
 CONTACT_COLUMNS = ("in_contact", "x_m", "y_m", "force_n", "peak_counts", "area_m2", "spread_m")
 """Columns of the total contact; 0 without contact."""
@@ -98,6 +98,14 @@ class Joints:
     notes: tuple[str, ...] = ()
 
 
+class _Told(NamedTuple):
+    """What a joint state says: stamp [ns], names of the values and the values."""
+
+    stamp_ns: int
+    names: Names
+    values: Values
+
+
 def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Joints:
     """Recorded joint states.
 
@@ -118,8 +126,9 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
     RecordingError
         A message has no stamp, so that nobody knows what it belongs to.
     """
-    told = [(ns_of(message.header.stamp), _joint_values(message)) for message in messages(bag, path, topic, JointState)]
-    unstamped = sum(not stamp_ns for stamp_ns, _ in told)
+    shared: dict[Names, Names] = {}
+    told = [_told(message, shared) for message in messages(bag, path, topic, JointState)]
+    unstamped = sum(not one.stamp_ns for one in told)
     if unstamped:
         raise RecordingError(
             f"'{path}': {unstamped} of {len(told)} joint states on {topic} have no stamp, so that it is not known when "
@@ -127,18 +136,18 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
         )
     notes: list[str] = []
     if numbers_only:
-        told, notes = _numbers_of(told)
-    columns = tuple(dict.fromkeys(name for _, values in told for name in values))
+        told, notes = _numbers_of(told, shared)
+    columns = tuple(dict.fromkeys(name for names in dict.fromkeys(one.names for one in told) for name in names))
     newest: dict[str, float] = {}
     # Of each column: publishers that share the topic may overtake one another.
     newest_ns: dict[str, int] = {}
     track: Track[Values] = Track()
-    for stamp_ns, values in told:
-        if any(stamp_ns <= newest_ns.get(name, 0) for name in values):
+    for stamp_ns, names, values in told:
+        if any(stamp_ns <= newest_ns.get(name, 0) for name in names):
             track.backward += 1
             continue
-        newest.update(values)
-        newest_ns.update(dict.fromkeys(values, stamp_ns))
+        newest.update(zip(names, values.tolist(), strict=True))
+        newest_ns.update(dict.fromkeys(names, stamp_ns))
         if not columns or len(newest) < len(columns):
             continue
         state = np.array([newest[name] for name in columns])
@@ -149,11 +158,19 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
     return Joints(columns, track, tuple(notes)) if track.stamps_ns else Joints(notes=tuple(notes))
 
 
-def _numbers_of(told: list[tuple[int, dict[str, float]]]) -> tuple[list[tuple[int, dict[str, float]]], list[str]]:
+def _numbers_of(told: list[_Told], shared: dict[Names, Names]) -> tuple[list[_Told], list[str]]:
     """Joint states without what is no number, and what has gone with that, in words."""
-    numbers = [(stamp_ns, {name: x for name, x in values.items() if math.isfinite(x)}) for stamp_ns, values in told]
-    kept = {name for _, values in numbers for name in values}
-    unknown = Counter(name for _, values in told for name, x in values.items() if not math.isfinite(x))
+    numbers: list[_Told] = []
+    unknown: Counter[str] = Counter()
+    for one in told:
+        is_number = np.isfinite(one.values)
+        if is_number.all():
+            numbers.append(one)
+            continue
+        unknown.update({name for name, is_known in zip(one.names, is_number, strict=True) if not is_known})
+        names = tuple(name for name, is_known in zip(one.names, is_number, strict=True) if is_known)
+        numbers.append(_Told(one.stamp_ns, shared.setdefault(names, names), one.values[is_number]))
+    kept = {name for names in {one.names for one in numbers} for name in names}
     never = [name for name in unknown if name not in kept]
     now_and_then = [name for name in unknown if name in kept]
     notes = []
@@ -200,13 +217,17 @@ def _contacts_of_message(message: Contacts) -> Values:
     return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
 
 
-def _joint_values(message: JointState) -> dict[str, float]:
-    values = {}
+def _told(message: JointState, shared: dict[Names, Names]) -> _Told:
+    """What a message says; recordings of hours have millions of them, and few names."""
+    names: list[str] = []
+    values: list[float] = []
     for kind in ("position", "velocity", "effort"):
         numbers = getattr(message, kind)
         if len(numbers) == len(message.name):
-            values.update({f"{name}.{kind}": float(number) for name, number in zip(message.name, numbers, strict=True)})
-    return values
+            names += [f"{name}.{kind}" for name in message.name]
+            values += numbers
+    key = tuple(names)
+    return _Told(ns_of(message.header.stamp), shared.setdefault(key, key), np.array(values, dtype=np.float64))
 
 
 def _track(bag: Any, path: Path, topic: str, kind: type, read: Callable[[Any], Values]) -> Track[Values]:
