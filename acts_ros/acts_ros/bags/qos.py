@@ -17,6 +17,7 @@ _Policy = TypeVar("_Policy", ReliabilityPolicy, DurabilityPolicy)
 
 _SUBSCRIPTION_DEPTH = 4096
 _PUBLISHER_DEPTH = 256
+_KEPT_MAX = 1000
 
 
 def for_subscription(offers: Sequence[TopicEndpointInfo]) -> QoSProfile:
@@ -66,26 +67,29 @@ def to_bag(profiles: Sequence[QoSProfile]) -> list[Qos]:
     ]
 
 
-def for_publisher(recorded: Sequence[Qos]) -> QoSProfile:
+def for_publisher(recorded: Sequence[Qos], message_count: int = 0) -> QoSProfile:
     """The profile to publish a recorded topic with.
 
     Parameters
     ----------
     recorded : sequence of Qos
         Profiles of the topic's publishers when it was recorded; may be empty.
+    message_count : int
+        Messages of the topic in the bag.
 
     Returns
     -------
     QoSProfile
-        Reliable or transient local where at least one publisher was. The depth is the recorded one if transient local
-        (1 where it is unknown), otherwise at least 256, for bursts.
+        Reliable or transient local where at least one publisher was. The depth is at least the recorded one, and 256,
+        for bursts. If transient local, it is at least as large as the number of messages, up to 1000, instead: each of
+        several publishers had kept its own.
     """
     reliable = not recorded or any(profile.reliability is QosReliability.RELIABLE for profile in recorded)
     kept = any(profile.durability is QosDurability.TRANSIENT_LOCAL for profile in recorded)
     recorded_depth = max((profile.depth for profile in recorded), default=0)
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
-        depth=max(1, recorded_depth) if kept else max(_PUBLISHER_DEPTH, recorded_depth),
+        depth=max(1, recorded_depth, min(message_count, _KEPT_MAX)) if kept else max(_PUBLISHER_DEPTH, recorded_depth),
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE,
     )

@@ -72,6 +72,10 @@ class Bag:
             for profile in cast(ConnectionExtRosbag2, connection.ext).offered_qos_profiles
         ]
 
+    def message_count(self, topic: str) -> int:
+        """Number of messages of a topic."""
+        return sum(connection.msgcount for connection in self.connections if connection.topic == topic)
+
     def span_ns(self, topics: Sequence[str]) -> tuple[int, int]:
         """Earliest and latest stamp [ns]: of the bag where its metadata say it and make sense, else of these topics.
 

@@ -80,7 +80,8 @@ class Player:
             except RecordingError as error:
                 say(f"not played: {topic}: {error}")
                 continue
-            self._publishers[topic] = node.create_publisher(kind, topic, qos.for_publisher(bag.recorded_qos(topic)))
+            profile = qos.for_publisher(bag.recorded_qos(topic), bag.message_count(topic))
+            self._publishers[topic] = node.create_publisher(kind, topic, profile)
         if not self._publishers:
             raise RecordingError("the bag has no topic that can be played")
         self._from_ns = self._begin_ns(offset_s) if offset_s else None

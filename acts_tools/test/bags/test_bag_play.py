@@ -14,12 +14,15 @@ from pathlib import Path
 
 import pytest
 from bag_commands import TIMEOUT_S, acts
+from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
 from acts_core.errors import RecordingError
+from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
 from acts_ros.bags.writing import BagWriter
+from acts_ros.qos import LATCHED
 from acts_tools.bags.player import Player
 from acts_tools.testing.probe import Probe
 
@@ -110,6 +113,22 @@ def test_an_offset_beyond_the_end_is_refused_with_the_length(
         # The bag goes on, but this topic does not.
         with pytest.raises(RecordingError, match="the topics to play are /a; give a smaller offset"):
             Player(probe.node, bag, ["/a"], print, 0.035)
+
+
+def test_who_joins_late_gets_what_each_of_several_publishers_had_kept(probe: Probe, tmp_path: Path) -> None:
+    """As /tf_static of two robots, or the baselines of two drivers."""
+    kept = qos.to_bag([LATCHED, LATCHED])
+    assert [profile.depth for profile in kept] == [1, 1]
+    bag = BagWriter(tmp_path / "bag")
+    topic = bag.add_topic("/kept", "std_msgs/msg/String", *Definitions().describe("std_msgs/msg/String"), kept)
+    for word in ("a", "b"):
+        bag.write(topic, serialize_message(String(data=word)))
+    bag.close()
+    with open_bag(tmp_path / "bag") as opened:
+        assert Player(probe.node, opened, None, print).play(1.0, lambda _deadline_s: True)
+    heard = probe.wait_for_messages("/kept", String, 2, TIMEOUT_S)
+    assert [message.data for message in heard] == ["a", "b"]
+    assert qos.for_publisher(kept, 5000).depth == 1000
 
 
 def test_unknown_topics_and_types_are_refused_or_left_out(
