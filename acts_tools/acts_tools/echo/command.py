@@ -8,16 +8,24 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Iterator
+from typing import Any
 
 from acts_core.names import full_name
+from acts_core.words import counted
 from acts_tools.arguments import at_least_one, seconds
 
 _TURN_S = 0.1
+# With what is waiting meanwhile, what a user sees is at most some 0.3 s old.
+_BEHIND_S = 0.1
 
 _EPILOG = """\
 examples:
   acts echo /plate/impacts             each touch of the skin
   acts echo /plate/contact -n 1        the next message only
+
+Where messages come faster than they can be printed, a terminal shows the newest ones, and a comment tells how many were
+left out. A file or another program (`acts echo TOPIC | less`) gets all of them, late.
 
 `acts listen` counts the messages of a topic, and those that are missing.
 """
@@ -52,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.running.stopping import StopFlag
 
     printed = 0
+    is_watched = sys.stdout.isatty()
     with StopFlag() as stop, command_node("acts_echo") as (node, executor):
         inbox = Inbox(node, topic)
         end_s = float("inf") if arguments.duration is None else time.monotonic() + arguments.duration
@@ -59,7 +68,9 @@ def run(arguments: argparse.Namespace) -> int:
             inbox.discover()
             spin_for(executor, min(_TURN_S, max(end_s - time.monotonic(), 0.001)))
             # Printed here, not in the callback: rclpy would report a reader that has ended (`| head`) as an error.
-            for message in inbox.take():
+            for left_out, message in due(list(inbox.take()), is_watched):
+                if left_out:
+                    print(f"# {counted(left_out, 'message')} left out", flush=True)
                 print(f"{message_text(message)}---", flush=True)
                 printed += 1
                 if stop.is_set or printed == arguments.number:
@@ -67,3 +78,22 @@ def run(arguments: argparse.Namespace) -> int:
     if not printed:
         print(f"{topic}: {'no message came' if inbox.is_found else 'no publisher found'}", file=sys.stderr)
     return 0 if printed else 1
+
+
+def due(messages: list[Any], is_watched: bool) -> Iterator[tuple[int, Any]]:
+    """Messages to print, each with the number of those before it that are left out.
+
+    Parameters
+    ----------
+    messages : list
+        Those that have come, the oldest first.
+    is_watched : bool
+        Whether only the newest is given once the others have waited for too long.
+    """
+    begin_s = time.monotonic()
+    for number, message in enumerate(messages):
+        left_out = len(messages) - 1 - number
+        if is_watched and left_out and time.monotonic() - begin_s > _BEHIND_S:
+            yield left_out, messages[-1]
+            return
+        yield 0, message

@@ -10,7 +10,10 @@ import contextlib
 import subprocess
 import sys
 import time
+from collections import deque
 from collections.abc import Iterator
+from contextlib import contextmanager
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -24,6 +27,7 @@ from std_msgs.msg import UInt8
 
 from acts_msgs.msg import BalanceStatus, Impact
 from acts_ros.qos import STREAM
+from acts_tools.cli import main
 from acts_tools.echo.message_text import LONGEST_LIST, message_text
 from acts_tools.testing.probe import Probe
 
@@ -126,6 +130,41 @@ def test_the_command_prints_as_many_messages_as_are_wanted(talker: Node) -> None
     assert told.pop() is None  # behind the last ---
     first, second = told
     assert second["number"] == first["number"] + 1
+
+
+@pytest.mark.parametrize("is_watched", [True, False])
+def test_a_terminal_shows_the_present_and_a_file_gets_all(
+    is_watched: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A thousand messages have come at once; each takes 16 ms to print."""
+    clock = SimpleNamespace(now_s=0.0)
+
+    def slowly(message: int) -> str:
+        clock.now_s += 1 / 64
+        return f"data: {message}\n"
+
+    @contextmanager
+    def no_node(_name: str) -> Iterator[tuple[None, None]]:
+        yield None, None
+
+    waiting = deque([range(1000), range(1000, 1003)])
+    monkeypatch.setattr("acts_tools.running.node.command_node", no_node)
+    monkeypatch.setattr("acts_ros.executor.spin_for", lambda _executor, _seconds: None)
+    monkeypatch.setattr("acts_tools.echo.inbox.Inbox.discover", lambda _self: None)
+    monkeypatch.setattr("acts_tools.echo.inbox.Inbox.take", lambda _self: iter(waiting.popleft()))
+    monkeypatch.setattr("acts_tools.echo.message_text.message_text", slowly)
+    monkeypatch.setattr("acts_tools.echo.command.time", SimpleNamespace(monotonic=lambda: clock.now_s))
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: is_watched)
+    shown = 7 + 1 + 3 if is_watched else 1003
+    assert main(["echo", "/word", "-n", str(shown)]) == 0
+    text = capsys.readouterr().out
+    numbers = [document["data"] for document in yaml.safe_load_all(text) if document]
+    if is_watched:
+        assert numbers == [*range(7), 999, 1000, 1001, 1002]
+        assert "data: 6\n---\n# 992 messages left out\ndata: 999\n---\n" in text
+    else:
+        assert numbers == list(range(1003))
+        assert "#" not in text
 
 
 def test_a_reader_that_ends_ends_the_command_without_a_word(talker: Node) -> None:
