@@ -49,6 +49,22 @@ def for_subscription(offers: Sequence[TopicEndpointInfo]) -> QoSProfile:
     )
 
 
+def is_too_strict(present: QoSProfile, offers: Sequence[TopicEndpointInfo]) -> bool:
+    """Whether a subscription gets nothing from one of the publishers, such as one that has joined since it was made.
+
+    Parameters
+    ----------
+    present : QoSProfile
+        Of the subscription, as `for_subscription` made it.
+    offers : sequence of TopicEndpointInfo
+        The publishers; at least one.
+    """
+    needed = for_subscription(offers)
+    return (present.reliability == ReliabilityPolicy.RELIABLE and needed.reliability != ReliabilityPolicy.RELIABLE) or (
+        present.durability == DurabilityPolicy.TRANSIENT_LOCAL and needed.durability != DurabilityPolicy.TRANSIENT_LOCAL
+    )
+
+
 def to_bag(profiles: Sequence[QoSProfile]) -> list[Qos]:
     """The profiles of a topic's publishers as a bag stores them."""
     return [

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
@@ -176,16 +176,10 @@ class Recorder:
 
     def _relax(self, topic: str, offers: list[TopicEndpointInfo]) -> None:
         """Subscribe again if a new publisher is not compatible with the present subscription."""
-        present, needed = self._subscriptions[topic].qos_profile, qos.for_subscription(offers)
-        too_strict = (
-            present.reliability == ReliabilityPolicy.RELIABLE and needed.reliability != ReliabilityPolicy.RELIABLE
-        ) or (
-            present.durability == DurabilityPolicy.TRANSIENT_LOCAL
-            and needed.durability != DurabilityPolicy.TRANSIENT_LOCAL
-        )
-        if too_strict:
+        if qos.is_too_strict(self._subscriptions[topic].qos_profile, offers):
             self._node.destroy_subscription(self._subscriptions[topic])
-            self._subscribe(topic, message_class(self.records[topic].message_type), needed)
+            kind = message_class(self.records[topic].message_type)
+            self._subscribe(topic, kind, qos.for_subscription(offers))
 
     def _subscribe(self, topic: str, kind: type, profile: QoSProfile) -> None:
         record = self.records[topic]

@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 
 from acts_ros.bags.message_types import message_class
-from acts_ros.bags.qos import for_subscription
+from acts_ros.bags.qos import for_subscription, is_too_strict
 
 
 class Inbox:
@@ -24,34 +25,36 @@ class Inbox:
         Node of the subscription; the caller spins it.
     topic : str
         Full name.
-
-    Attributes
-    ----------
-    is_found : bool
-        Whether the topic has appeared.
     """
 
     def __init__(self, node: Node, topic: str) -> None:
-        self.is_found = False
+        self._subscription: Subscription | None = None
         self._node = node
         self._topic = topic
         self._messages: deque[Any] = deque()
 
+    @property
+    def is_found(self) -> bool:
+        """Whether the topic has appeared."""
+        return self._subscription is not None
+
     def discover(self) -> None:
-        """Subscribe once the topic has a publisher; to be called regularly.
+        """Subscribe once the topic has a publisher, and again once one joins that offers less; to be called regularly.
 
         Raises
         ------
         RecordingError
             Its type is not installed.
         """
-        if self.is_found:
-            return
         offers = self._node.get_publishers_info_by_topic(self._topic)
-        if offers:
-            self.is_found = True
-            kind = message_class(offers[0].topic_type)
-            self._node.create_subscription(kind, self._topic, self._keep, for_subscription(offers))
+        if not offers:
+            return
+        if self._subscription is not None:
+            if not is_too_strict(self._subscription.qos_profile, offers):
+                return
+            self._node.destroy_subscription(self._subscription)
+        kind = message_class(offers[0].topic_type)
+        self._subscription = self._node.create_subscription(kind, self._topic, self._keep, for_subscription(offers))
 
     def take(self) -> Iterator[Any]:
         """The messages, the oldest first."""

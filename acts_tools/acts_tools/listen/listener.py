@@ -12,10 +12,11 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.bags.message_types import message_class
-from acts_ros.bags.qos import for_subscription
+from acts_ros.bags.qos import for_subscription, is_too_strict
 from acts_ros.messages import ns_of
 from acts_tools.listen.arrivals import Arrivals
 
@@ -48,18 +49,22 @@ class Listener:
         self.complained_s: dict[str, float] = {}
         self._node = node
         self._topics = topics
+        self._subscriptions: dict[str, Subscription] = {}
 
     def discover(self) -> None:
-        """Subscribe to new topics; to be called regularly."""
-        if len(self.arrivals) == len(self._topics):
-            return
+        """Subscribe to new topics, and again where a publisher joins that offers less; to be called regularly."""
         types = dict(self._node.get_topic_names_and_types())
         for topic in self._topics:
             offers = self._node.get_publishers_info_by_topic(topic)
-            if topic in self.arrivals or topic not in types or not offers:
+            if topic not in types or not offers:
                 continue
-            arrivals = self.arrivals[topic] = Arrivals(time.monotonic())
-            self._node.create_subscription(
+            present = self._subscriptions.get(topic)
+            if present is not None:
+                if not is_too_strict(present.qos_profile, offers):
+                    continue
+                self._node.destroy_subscription(present)
+            arrivals = self.arrivals.setdefault(topic, Arrivals(time.monotonic()))
+            self._subscriptions[topic] = self._node.create_subscription(
                 message_class(types[topic][0]), topic, partial(self._note, arrivals), for_subscription(offers)
             )
 

@@ -22,12 +22,14 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import BatteryState, Image
 from std_msgs.msg import UInt8
 
 from acts_msgs.msg import BalanceStatus, Impact
 from acts_ros.qos import STREAM
 from acts_tools.cli import main
+from acts_tools.echo.inbox import Inbox
 from acts_tools.echo.message_text import LONGEST_LIST, message_text
 from acts_tools.testing.probe import Probe
 
@@ -165,6 +167,24 @@ def test_a_terminal_shows_the_present_and_a_file_gets_all(
     else:
         assert numbers == list(range(1003))
         assert "#" not in text
+
+
+def test_a_weaker_publisher_that_comes_later_is_heard_too() -> None:
+    """As a driver that was started again with another quality of service."""
+    with Probe(230) as probe:
+        inbox = Inbox(probe.node, "/word")
+        heard: set[int] = set()
+
+        def hears(publisher: Publisher, word: int) -> bool:
+            publisher.publish(UInt8(data=word))
+            inbox.discover()
+            heard.update(message.data for message in inbox.take())
+            return word in heard
+
+        strong = probe.node.create_publisher(UInt8, "/word", QoSProfile(depth=10))
+        probe.wait_for(lambda: hears(strong, 1), DEADLINE_S, "the first publisher")
+        weak = probe.node.create_publisher(UInt8, "/word", STREAM)
+        probe.wait_for(lambda: hears(weak, 2), DEADLINE_S, "the second publisher")
 
 
 def test_a_reader_that_ends_ends_the_command_without_a_word(talker: Node) -> None:

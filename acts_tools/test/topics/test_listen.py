@@ -18,6 +18,8 @@ from types import SimpleNamespace
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
 
 from acts_msgs.msg import Contact, Contacts, Impact, Outline, RegionContacts, TactileSamples
 from acts_ros.qos import STREAM
@@ -145,6 +147,26 @@ def test_the_command_reports_as_long_as_it_runs(talker: Node) -> None:
     assert heard["total_lost"] == heard["total_received"] - 1
     assert report["complaints"] == {"plate/driver": "no frames"}
     assert list(report["complaint_ages_s"]) == ["plate/driver"]
+
+
+def test_a_weaker_publisher_that_comes_later_is_heard_too() -> None:
+    """As a driver that was started again with another quality of service."""
+    with Probe(151) as probe:
+        listener = Listener(probe.node, ["/steps"])
+        numbers: set[int] = set()
+
+        def hears(publisher: Publisher, number: int) -> bool:
+            publisher.publish(DiagnosticArray(status=[DiagnosticStatus(level=b"\x01", name=str(number))]))
+            listener.discover()
+            numbers.update(map(int, listener.complaints))
+            return number in numbers
+
+        strong = probe.node.create_publisher(DiagnosticArray, "/steps", QoSProfile(depth=10))
+        probe.wait_for(lambda: hears(strong, 1), DEADLINE_S, "the first publisher")
+        received = listener.arrivals["/steps"].take(time.monotonic()).total_received
+        weak = probe.node.create_publisher(DiagnosticArray, "/steps", STREAM)
+        probe.wait_for(lambda: hears(weak, 2), DEADLINE_S, "the second publisher")
+        assert listener.arrivals["/steps"].take(time.monotonic()).total_received > received > 0
 
 
 def test_who_hears_nothing_is_told(talker: Node) -> None:
