@@ -5,32 +5,34 @@
 
 from __future__ import annotations
 
+from acts_core.array import MAX_SIDE
 from acts_core.words import counted
 from acts_tools.doctor.finding import Finding, Level, unknown
 from acts_tools.doctor.machine import Machine
 
 _MIB = 1 << 20
-# A launch with three skins and a viewer needs some 20 MiB, most of it segments of the middleware.
-_NEEDED_BYTES = 32 * _MIB
+# The pressure on a simulated skin is in a ring of 256 frames of doubles: 8 MiB of the largest array. While it is
+# started again there are two. Nodes do not need it: they talk by UDP (`acts_ros.middleware`).
+_NEEDED_BYTES = 2 * 256 * 8 * MAX_SIDE**2 + _MIB
 _SHM = "dev/shm"
 
 
 def shared_memory(machine: Machine) -> Finding:
-    """Check whether there is shared memory for the middleware and for simulated processes."""
+    """Check whether there is shared memory for simulated processes."""
     name = "shared memory"
     folder = machine.root / _SHM
     if not folder.is_dir() or not machine.may_use(folder):
         what = "is not there" if not folder.is_dir() else "may not be written"
         mend = "sudo mount -t tmpfs -o mode=1777,size=1G tmpfs /dev/shm"
         return Finding(
-            name, Level.LACKS, f"/dev/shm {what}: nodes of two processes lose frames, nothing can be simulated", mend
+            name, Level.LACKS, f"/dev/shm {what}: nothing can be simulated without a run_dir elsewhere", mend
         )
     space = machine.space(folder)
     text = f"{space.free_bytes // _MIB} of {space.total_bytes // _MIB} MiB are free in /dev/shm"
     if space.free_bytes >= _NEEDED_BYTES:
         return Finding(name, Level.OK, text)
     mend = "sudo mount -o remount,size=1G /dev/shm     # of a container: docker run --shm-size=1g"
-    return Finding(name, Level.LACKS, f"{text}; {_NEEDED_BYTES // _MIB} are needed", mend)
+    return Finding(name, Level.LACKS, f"{text}; a simulated skin needs up to {_NEEDED_BYTES // _MIB}", mend)
 
 
 def abandoned(machine: Machine) -> Finding:

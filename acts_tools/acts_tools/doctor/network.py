@@ -30,7 +30,7 @@ def socket_buffers(machine: Machine) -> Finding:
     return Finding(
         name,
         Level.NOTE,
-        f"{words}: over a network, bursts of images at 1 kHz get lost (shared memory is not affected)",
+        f"{words}: bursts of images at 1 kHz get lost, over a network and on this machine, where nodes talk by UDP",
         f"sudo sysctl -w {settings}     # to keep it: in /etc/sysctl.d/60-ros.conf",
     )
 

@@ -176,6 +176,15 @@ CASES = [
         "real-time share", NOTE, "refused", "cpu.rt_runtime_us",
         {"proc/self/cgroup": "1:cpu:/a", "sys/fs/cgroup/cpu/a/cpu.rt_runtime_us": "0"}, for_realtime=True,
     ),
+    Case(
+        "shared memory", LACKS, "without a run_dir elsewhere", "mount",
+        machine={"may_use": lambda path: path.name != "shm"},
+    ),
+    Case(
+        "shared memory", LACKS, "needs up to 17", "--shm-size",
+        machine={"space": lambda path: Space(64 * MIB, 8 * MIB)},
+    ),
+    Case("shared memory", OK, "18 of 64 MiB", "", machine={"space": lambda path: Space(64 * MIB, 18 * MIB)}),
     Case("shared memory", LACKS, "may not be written", "mount", machine={"may_use": lambda path: path.name != "shm"}),
     Case(
         "shared memory", LACKS, "8 of 64 MiB", "--shm-size", machine={"space": lambda path: Space(64 * MIB, 8 * MIB)}
@@ -199,6 +208,10 @@ CASES = [
     ),
     Case("serial latency", OK, "ttyACM0, ttyUSB0: no delay"),
     Case("socket buffers", NOTE, "rmem_max 208 KiB", "net.core.rmem_max", {"proc/sys/net/core/rmem_max": "212992"}),
+    Case(
+        "socket buffers", NOTE, "on this machine, where nodes talk by UDP", "net.core.rmem_max",
+        {"proc/sys/net/core/rmem_max": "212992"},
+    ),
     Case("socket buffers", UNKNOWN, "rmem_max", "", {"proc/sys/net/core/rmem_max": None}),
     Case("ROS domain", NOTE, "robots of others", "ROS_DOMAIN_ID=42", machine=NO_DOMAIN),
     Case("ROS domain", OK, "this machine only", "", machine=environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")),
