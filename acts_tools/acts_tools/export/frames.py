@@ -52,6 +52,27 @@ class Seen:
     is_whole: bool = True
 
 
+@dataclass
+class Refused:
+    """Frames that could not be used, as the node reconstruction leaves them out.
+
+    Attributes
+    ----------
+    count : int
+        Their number.
+    first : str
+        Which was the first, and why.
+    """
+
+    count: int = 0
+    first: str = ""
+
+    def add(self, which: str) -> None:
+        """Count one more."""
+        self.count += 1
+        self.first = self.first or which
+
+
 def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
     """Images of a topic in counts, such as ``image_raw``.
 
@@ -70,7 +91,9 @@ def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
         yield Seen(ns_of(message.header.stamp), image)
 
 
-def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layout: str) -> Iterator[Seen]:
+def recovered_frames(
+    bag: Any, path: Path, topic: str, beside: str | None, layout: str, refused: Refused
+) -> Iterator[Seen]:
     """Images recovered from samples, with their contacts, by the defaults of the node reconstruction.
 
     Parameters
@@ -83,26 +106,38 @@ def recovered_frames(bag: Any, path: Path, topic: str, beside: str | None, layou
         Topics of the samples and of the baseline; None for no baseline.
     layout : str
         Name or file, as in `acts_core.skin.layout`.
+    refused : Refused
+        Gets the frames that are left out: of another array than the first, or with taxels that it does not have.
 
     Raises
     ------
     RecordingError
-        Frames do not fit the layout, the baseline does not fit the frames, or a message is damaged.
+        The array does not fit the layout, the baseline does not fit the array, a message is damaged, or all frames
+        are left out.
     """
     recovery: FrameRecovery | None = None
+    made = 0
     for where, samples, baseline in samples_with_baseline(bag, path, topic, beside):
         try:
             if recovery is None:
                 recovery = FrameRecovery(_settings(samples, layout))
             if baseline is not None:
                 _subtract(recovery, baseline, f"{beside} in '{path}'")
-            yield _seen(recovery, samples)
-        except RepeatedFrameError:
-            continue
         except RecordingError:
             raise
         except ActsError as error:
             raise RecordingError(f"{where}: {error}") from error
+        try:
+            seen = _seen(recovery, samples)
+        except RepeatedFrameError:
+            continue
+        except ArrayError as error:
+            refused.add(f"{where}: {error}")
+            continue
+        made += 1
+        yield seen
+    if refused.count and not made:
+        raise RecordingError(refused.first)
 
 
 def contacts_in(frames: Iterator[Seen], recorded: Iterator[Seen]) -> tuple[Track[Values], Track[Values]] | None:

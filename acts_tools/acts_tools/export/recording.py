@@ -22,7 +22,7 @@ from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
 from acts_ros.bags.skin_topics import IMAGE, SAMPLES, baseline_topic
 from acts_tools.bags.messages import is_in_counts, messages
-from acts_tools.export.frames import Seen, contacts_in, recorded_frames, recovered_frames
+from acts_tools.export.frames import Refused, Seen, contacts_in, recorded_frames, recovered_frames
 from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, contact_track, contacts_track, joint_track
 
 _JOINTS = "sensor_msgs/msg/JointState"
@@ -109,6 +109,7 @@ class Recording:
     hint: str = ""
     """For the user: what may be meant otherwise; empty where there is nothing."""
     _notes: tuple[str, ...] = ()
+    _refused: Refused = field(default_factory=Refused)
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
     _contact: Track[Values] | None = None
     _contacts: Track[Values] | None = None
@@ -122,7 +123,12 @@ class Recording:
             else ""
         )
         backward = f"{counted(self.backward, 'frame')} {_BACKWARD}" if self.backward else ""
-        return [sentence for sentence in (early, backward, *self._notes, self.hint) if sentence]
+        refused = (
+            f"{counted(self._refused.count, 'frame')} left out, of which the first is {self._refused.first}"
+            if self._refused.count
+            else ""
+        )
+        return [sentence for sentence in (early, backward, refused, *self._notes, self.hint) if sentence]
 
     def rows(self) -> Iterator[Row]:
         """All rows in order; can be read once.
@@ -220,11 +226,12 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     with open_bag(path) as bag:
         topics = _chosen_topics(bag, path, choice)
         joints = joint_track(bag, path, topics.joints, numbers_only=choice.numbers_only) if topics.joints else Joints()
-        found = _contacts_of(bag, path, topics, choice.layout)
+        refused = Refused()
+        found = _contacts_of(bag, path, topics, choice.layout, refused)
         if topics.images:
             frames = recorded_frames(bag, path, topics.images)
         else:
-            frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice.layout)
+            frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice.layout, refused)
             if found.note:
                 frames = (replace(seen, contacts=None) for seen in frames)
         left_out = {**found.left_out, topics.joints: joints.track.backward}
@@ -240,6 +247,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
                 *joints.notes,
                 bag.note or "",
             ),
+            _refused=refused,
             _frames=frames,
             _contact=found.contact if found.contact.stamps_ns else None,
             _contacts=found.contacts if found.contacts.stamps_ns else None,
@@ -288,7 +296,7 @@ class _FoundContacts:
     note: str
 
 
-def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str) -> _FoundContacts:
+def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str, refused: Refused) -> _FoundContacts:
     """The recorded contacts; beside recorded images, those that lack are found in the samples."""
     contact = contact_track(bag, path, topics.contact)
     contacts = contacts_track(bag, path, topics.contacts)
@@ -298,7 +306,7 @@ def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str) -> _FoundCo
     if are_recorded or not (topics.images and topics.samples):
         return _FoundContacts(contact, contacts, left_out, other_taxels)
     found = contacts_in(
-        recovered_frames(bag, path, topics.samples, topics.baseline, layout),
+        recovered_frames(bag, path, topics.samples, topics.baseline, layout, refused),
         recorded_frames(bag, path, topics.images),
     )
     if found is None:
