@@ -226,6 +226,9 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     with open_bag(path) as bag:
         topics = _chosen_topics(bag, path, choice)
         joints = joint_track(bag, path, topics.joints, numbers_only=choice.numbers_only) if topics.joints else Joints()
+        if choice.joints not in ("", NO_JOINTS) and not joints.track.stamps_ns:
+            why = "; ".join(joints.notes) or "no message names joints and says something of them"
+            raise RecordingError(f"'{path}' has no joint states to export on {topics.joints}: {why}")
         refused = Refused()
         found = _contacts_of(bag, path, topics, choice.layout, refused)
         if topics.images:

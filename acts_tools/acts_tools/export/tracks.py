@@ -34,6 +34,8 @@ CONTACT_COLUMNS = ("in_contact", "x_m", "y_m", "force_n", "peak_counts", "area_m
 CONTACTS_COLUMNS = ("number", "x_m", "y_m", "vx_m_s", "vy_m_s", "force_n", "peak_counts", "area_m2", "spread_m")
 """Columns of each contact."""
 
+_JOINT_VALUES = ("position", "velocity", "effort")
+
 _T = TypeVar("_T")
 
 
@@ -127,16 +129,24 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
         A message has no stamp, so that nobody knows what it belongs to.
     """
     shared: dict[Names, Names] = {}
-    told = [_told(message, shared) for message in messages(bag, path, topic, JointState)]
+    told: list[_Told] = []
+    unfit = 0
+    for message in messages(bag, path, topic, JointState):
+        told.append(_told(message, shared))
+        unfit += not told[-1].names or _has_unfit(message)
     unstamped = sum(not one.stamp_ns for one in told)
     if unstamped:
         raise RecordingError(
             f"'{path}': {unstamped} of {len(told)} joint states on {topic} have no stamp, so that it is not known when "
             "they were; leave them out with --joints none"
         )
-    notes: list[str] = []
+    notes = []
+    if unfit:
+        words = counted(unfit, "joint state has", "joint states have")
+        notes.append(f"{topic}: {words} not as many numbers as names; such numbers are left out")
     if numbers_only:
-        told, notes = _numbers_of(told, shared)
+        told, more = _numbers_of(told, shared)
+        notes += more
     columns = tuple(dict.fromkeys(name for names in dict.fromkeys(one.names for one in told) for name in names))
     newest: dict[str, float] = {}
     # Of each column: publishers that share the topic may overtake one another.
@@ -217,11 +227,16 @@ def _contacts_of_message(message: Contacts) -> Values:
     return np.array(rows, dtype=np.float64).reshape(-1, len(CONTACTS_COLUMNS))
 
 
+def _has_unfit(message: JointState) -> bool:
+    """Whether something is said of another number of joints than are named; nothing at all may be."""
+    return any(len(getattr(message, kind)) not in (0, len(message.name)) for kind in _JOINT_VALUES)
+
+
 def _told(message: JointState, shared: dict[Names, Names]) -> _Told:
     """What a message says; recordings of hours have millions of them, and few names."""
     names: list[str] = []
     values: list[float] = []
-    for kind in ("position", "velocity", "effort"):
+    for kind in _JOINT_VALUES:
         numbers = getattr(message, kind)
         if len(numbers) == len(message.name):
             names += [f"{name}.{kind}" for name in message.name]

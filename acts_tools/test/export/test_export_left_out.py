@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_export import pressed, rows_of, samples, write_bag
+from sensor_msgs.msg import JointState
+from test_export import header, image, joints, pressed, rows_of, samples, write_bag
 
 from acts_core.errors import RecordingError
 from acts_tools.export.recording import Choice, open_recording
@@ -28,6 +29,39 @@ def test_frames_that_do_not_fit_are_left_out_and_told(tmp_path: Path) -> None:
         (note,) = recording.notes()
     assert note.startswith("2 frames left out, of which the first is message 1 of /plate/samples in ")
     assert "2000" in note
+
+
+def test_joint_states_that_do_not_fit_their_names_are_told(tmp_path: Path) -> None:
+    unfit = JointState(header=header(5), name=["knee", "hip"], position=[0.5])
+    half = JointState(header=header(6), name=["knee"], position=[0.5], effort=[1.0, 2.0])
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20)),
+        ("/arm", unfit),
+        ("/leg", unfit),
+        ("/leg", half),
+        ("/still", joints(7, knee=0.5)),
+    )
+    with open_recording(path, Choice(joints="/leg")) as recording:
+        assert [row.joints is not None and row.joints.tolist() for row in recording.rows()] == [[0.5], [0.5]]
+        assert recording.joint_columns == ("knee.position",)
+        (note,) = recording.notes()
+    assert note == "/leg: 2 joint states have not as many numbers as names; such numbers are left out"
+    with open_recording(path, Choice(joints="/still")) as recording:
+        assert recording.notes() == []
+    with pytest.raises(RecordingError, match="has no joint states to export on /arm: /arm: 1 joint state has not"):
+        rows_of(path, joints="/arm")
+
+
+def test_joint_states_that_nobody_asked_for_are_told_when_they_are_left_out(tmp_path: Path) -> None:
+    path = write_bag(
+        tmp_path / "b",
+        ("/plate/image_raw", image(10, pressed(0))),
+        ("/arm", JointState(header=header(5), name=["knee", "hip"], position=[0.5])),
+    )
+    with open_recording(path, Choice()) as recording:
+        assert [row.joints for row in recording.rows()] == [None]
+        assert recording.notes() == ["/arm: 1 joint state has not as many numbers as names; such numbers are left out"]
 
 
 def test_a_bag_in_which_no_frame_fits_is_refused(tmp_path: Path) -> None:
