@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from acts_tools.export.recording import Recording
 
 FORMATS = ("csv", "npz", "parquet", "lerobot")
+_LAYOUT = "square"
 _LEROBOT_HZ = 30.0
 _RATE_MAX_HZ = 10_000.0
 _NOTES_FILE = "notes.txt"
@@ -47,7 +48,7 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--joints", default="", metavar="TOPIC", help="joint states to export, if there are several; none: none"
     )
-    parser.add_argument("--layout", default="square", help="layout of the skin, as in acts view (square)")
+    parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view ({_LAYOUT})")
     parser.add_argument(
         "--rate",
         type=float,
@@ -81,6 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
     writer: LeRobotWriter | None = None
     notes: list[str] = []
+    uses_layout = False
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
         # What is not whole does not stay: it would be in the way of the next attempt.
@@ -88,6 +90,12 @@ def run(arguments: argparse.Namespace) -> int:
             begun = Path(folder) / output.name
             for bag in bags:
                 with open_recording(bag, choice) as recording:
+                    uses_layout = uses_layout or recording.uses_layout
+                    if bag is bags[-1] and arguments.layout != _LAYOUT and not uses_layout:
+                        raise RecordingError(
+                            f"--layout {arguments.layout} is of no use: it is for what is recovered from samples, and "
+                            f"images and contacts of {recording.skin or '/'} are exported as they were recorded"
+                        )
                     if kind == "lerobot":
                         writer = writer or LeRobotWriter(begun, int(rate_hz), arguments.task)
                         n_rows = writer.add(recording)

@@ -106,6 +106,8 @@ class Recording:
     """Number of frames without a row: before the first contact or joint state."""
     backward: int = 0
     """Number of frames without a row: not newer than one before."""
+    uses_layout: bool = False
+    """Whether something is recovered, so that the layout makes a difference."""
     hint: str = ""
     """For the user: what may be meant otherwise; empty where there is nothing."""
     _notes: tuple[str, ...] = ()
@@ -218,8 +220,11 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     ------
     RecordingError
         There is no bag, it does not contain what `choice` selects, or it contains several and `choice` selects none.
+    ArrayError, SettingsError
+        There is no such layout.
     """
     require_rosbags()
+    layout(choice.layout)
     # Imported here, because it imports rosbags, which a ROS installation may lack.
     from acts_ros.bags.reading import open_bag
 
@@ -243,7 +248,8 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             skin=topics.skin,
             rate_hz=choice.rate_hz,
             joint_columns=joints.columns,
-            hint=_layout_hint(bag, path, topics.skin, choice.layout),
+            uses_layout=found.uses_layout,
+            hint=_layout_hint(bag, path, topics.skin, choice.layout) if found.uses_layout else "",
             _notes=(
                 *(f"{counted(count, 'message')} of {topic} {_BACKWARD}" for topic, count in left_out.items() if count),
                 *([found.note] if found.note else []),
@@ -290,12 +296,14 @@ def _chosen_topics(bag: Any, path: Path, choice: Choice) -> _Topics:
 class _FoundContacts:
     """The total contact and the single ones beside the frames; their tracks are empty where they are not known.
 
-    `left_out` counts messages of a topic that are not newer than one before; `note` says why contacts are not known.
+    `left_out` counts messages of a topic that are not newer than one before; `uses_layout`: something is recovered, so
+    that the layout makes a difference; `note` says why contacts are not known.
     """
 
     contact: Track[Values]
     contacts: Track[Values]
     left_out: dict[str, int]
+    uses_layout: bool
     note: str
 
 
@@ -304,10 +312,13 @@ def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str, refused: Re
     contact = contact_track(bag, path, topics.contact)
     contacts = contacts_track(bag, path, topics.contacts)
     left_out = {topics.contact: contact.backward, topics.contacts: contacts.backward}
-    other_taxels = "" if contacts.stamps_ns else _other_taxels(contact, topics.contact, layout)
     are_recorded = bool(contact.stamps_ns and contacts.stamps_ns)
-    if are_recorded or not (topics.images and topics.samples):
-        return _FoundContacts(contact, contacts, left_out, other_taxels)
+    uses_layout = not topics.images or bool(topics.samples and not are_recorded)
+    other_taxels = ""
+    if uses_layout and not contacts.stamps_ns:
+        other_taxels = _other_taxels(contact, topics.contact, layout)
+    if not (topics.images and uses_layout):
+        return _FoundContacts(contact, contacts, left_out, uses_layout, other_taxels)
     found = contacts_in(
         recovered_frames(bag, path, topics.samples, topics.baseline, layout, refused),
         recorded_frames(bag, path, topics.images),
@@ -317,11 +328,12 @@ def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str, refused: Re
             f"contacts were not recorded, and are left out: with the layout {layout} {topics.samples} does not give "
             f"the images of {topics.images}; export it with --layout NAME, as the driver had it"
         )
-        return _FoundContacts(contact, contacts, left_out, note)
+        return _FoundContacts(contact, contacts, left_out, uses_layout, note)
     return _FoundContacts(
         contact if contact.stamps_ns else found[0],
         contacts if contacts.stamps_ns or other_taxels else found[1],
         {**left_out, topics.samples: found[0].backward},
+        uses_layout,
         other_taxels,
     )
 

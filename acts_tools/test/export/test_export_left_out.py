@@ -5,15 +5,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
-from test_export import header, image, joints, pressed, rows_of, samples, write_bag
+from test_export import contact, contacts, header, image, joints, pressed, rows_of, samples, write_bag
 
-from acts_core.errors import RecordingError
+from acts_core.errors import ArrayError, RecordingError
+from acts_tools.cli import main
 from acts_tools.export.recording import Choice, open_recording
+
+MAKE: dict[str, Callable[..., Any]] = {"image_raw": image, "samples": samples}
 
 
 def test_frames_that_do_not_fit_are_left_out_and_told(tmp_path: Path) -> None:
@@ -62,6 +67,29 @@ def test_joint_states_that_nobody_asked_for_are_told_when_they_are_left_out(tmp_
     with open_recording(path, Choice()) as recording:
         assert [row.joints for row in recording.rows()] == [None]
         assert recording.notes() == ["/arm: 1 joint state has not as many numbers as names; such numbers are left out"]
+
+
+def recorded(path: Path, *, contacts_too: bool) -> Path:
+    """Images and samples of three frames, and perhaps their contacts."""
+    messages = [(f"/plate/{name}", make(n, pressed(n))) for n in range(3) for name, make in MAKE.items()]
+    if contacts_too:
+        messages += [("/plate/contact", contact(0, 1.0)), ("/plate/contacts", contacts(0, 1))]
+    return write_bag(path, *messages)
+
+
+def test_a_layout_that_is_of_no_use_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, others = recorded(tmp_path / "b", contacts_too=True), recorded(tmp_path / "c", contacts_too=False)
+    words = ["export", str(path), "--to", "csv", "-o", str(tmp_path / "out"), "--layout"]
+    assert main([*words, "arm"]) == 1
+    assert "--layout arm is of no use: it is for what is recovered from samples" in capsys.readouterr().err
+    assert main([*words, "square"]) == 0
+    assert main(["export", str(others), *words[2:5], str(tmp_path / "more"), "--layout", "arm"]) == 0
+
+
+def test_a_layout_that_there_is_not_is_refused(tmp_path: Path) -> None:
+    path = recorded(tmp_path / "b", contacts_too=True)
+    with pytest.raises(ArrayError, match="layout 'sqare': allowed is one of"):
+        rows_of(path, layout="sqare")
 
 
 def test_a_bag_in_which_no_frame_fits_is_refused(tmp_path: Path) -> None:
