@@ -71,9 +71,9 @@ class Listener:
     def _note(self, arrivals: Arrivals, message: Any) -> None:
         now_ns = time.time_ns()
         header = getattr(message, "header", None)
-        age_s = None
-        if header is not None:
-            age_s = (now_ns - ns_of(header.stamp)) * 1e-9
+        # Of a message without a stamp nobody knows how old it is.
+        stamp_ns = 0 if header is None else ns_of(header.stamp)
+        age_s = (now_ns - stamp_ns) * 1e-9 if stamp_ns else None
         # Of the others that have the number of a frame not every frame has a message.
         number = message.sequence if isinstance(message, _OF_EVERY_FRAME) else None
         arrivals.add(time.monotonic(), number, age_s)

@@ -58,6 +58,14 @@ def test_messages_without_number_or_stamp_are_only_counted() -> None:
     assert (interval.received, interval.lost, interval.median_ms) == (1, None, None)
 
 
+def test_a_stamp_of_zero_is_none() -> None:
+    arrivals = Arrivals(0.0)
+    listener = Listener(None, [])  # type: ignore[arg-type]
+    listener._note(arrivals, Contact())
+    interval = arrivals.take(1.0)
+    assert (interval.received, interval.median_ms, interval.largest_ms) == (1, None, None)
+
+
 def test_only_what_has_a_message_of_every_frame_can_miss_some() -> None:
     lost = {}
     for kind in (TactileSamples, Contact, Contacts, Impact, Outline, RegionContacts):
