@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.names import full_name
 from acts_core.runtime import NS_PER_S
 from acts_core.skin import layout
 from acts_core.words import counted
@@ -403,9 +404,10 @@ def _joint_topic(path: Path, types: dict[str, str], wanted: str) -> str:
     if wanted == NO_JOINTS:
         return ""
     if wanted:
-        if wanted not in found:
-            raise RecordingError(f"'{path}' has no joint states on {wanted}; it has {', '.join(found) or 'none'}")
-        return wanted
+        topic = full_name(wanted)
+        if topic not in found:
+            raise RecordingError(f"'{path}' has no joint states on {topic}; it has {', '.join(found) or 'none'}")
+        return topic
     if len(found) > 1:
         raise RecordingError(f"'{path}' has joint states on {', '.join(found)}: choose one with --joints, or none")
     return found[0] if found else ""

@@ -58,6 +58,19 @@ def test_joint_states_that_do_not_fit_their_names_are_told(tmp_path: Path) -> No
         rows_of(path, joints="/arm")
 
 
+@pytest.mark.parametrize("name", ["arm/joint_states", "/arm/joint_states", "/arm/joint_states/"])
+def test_a_topic_of_joint_states_is_known_with_and_without_a_slash(name: str, tmp_path: Path) -> None:
+    path = write_bag(
+        tmp_path / "b",
+        ("/plate/image_raw", image(10, pressed(0))),
+        *((f"/{who}/joint_states", joints(5, **{who: 0.5})) for who in ("arm", "leg")),
+    )
+    with open_recording(path, Choice(joints=name)) as recording:
+        assert recording.joint_columns == ("arm.position",)
+    with pytest.raises(RecordingError, match="has no joint states on /hip; it has /arm/joint_states, /leg"):
+        rows_of(path, joints="hip")
+
+
 def test_joint_states_that_nobody_asked_for_are_told_when_they_are_left_out(tmp_path: Path) -> None:
     path = write_bag(
         tmp_path / "b",
