@@ -8,6 +8,8 @@ from __future__ import annotations
 import argparse
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -84,10 +86,8 @@ def run(arguments: argparse.Namespace) -> int:
     notes: list[str] = []
     uses_layout = False
     try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-        # What is not whole does not stay: it would be in the way of the next attempt.
-        with tempfile.TemporaryDirectory(prefix=".acts_export_", dir=output.parent) as folder:
-            begun = Path(folder) / output.name
+        with _folder_beside(output) as folder:
+            begun = folder / output.name
             for bag in bags:
                 with open_recording(bag, choice) as recording:
                     uses_layout = uses_layout or recording.uses_layout
@@ -113,6 +113,22 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
     print(f"written to {output}")
     return 0
+
+
+@contextmanager
+def _folder_beside(output: Path) -> Iterator[Path]:
+    """A folder beside the output; neither it nor one that was made for it stays, except around the finished output."""
+    missing = [parent for parent in output.parents if not parent.exists()]
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        # What is not whole would be in the way of the next attempt.
+        with tempfile.TemporaryDirectory(prefix=".acts_export_", dir=output.parent) as folder:
+            yield Path(folder)
+    finally:
+        for parent in missing:
+            # One in which there is something is kept by the system.
+            with suppress(OSError):
+                parent.rmdir()
 
 
 def _tell(bag: Path, recording: Recording, n_rows: int) -> None:

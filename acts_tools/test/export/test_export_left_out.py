@@ -105,6 +105,20 @@ def test_a_layout_that_there_is_not_is_refused(tmp_path: Path) -> None:
         rows_of(path, layout="sqare")
 
 
+def test_a_refused_export_leaves_no_folders(tmp_path: Path) -> None:
+    """Neither of a bag that there is not, nor of one that turns out to have nothing to export."""
+    path = write_bag(tmp_path / "b", ("/plate/image_raw", image(0, pressed(0))), ("/joint_states", joints(9, knee=0.5)))
+    (tmp_path / "kept").mkdir()
+    for bag in (tmp_path / "nothing", path):
+        for folder in ("new", "kept"):
+            assert main(["export", str(bag), "--to", "csv", "-o", str(tmp_path / folder / "more/out")]) == 1
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["b", "kept"]
+    assert not list((tmp_path / "kept").iterdir())
+    words = ["export", str(path), "--to", "csv", "--joints", "none", "-o", str(tmp_path / "new/more/out")]
+    assert main(words) == 0
+    assert (tmp_path / "new/more/out/frames.csv").exists()
+
+
 def test_a_bag_in_which_no_frame_fits_is_refused(tmp_path: Path) -> None:
     beyond = samples(20, pressed(2))
     beyond.indices[5] = 2000
