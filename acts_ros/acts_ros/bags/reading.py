@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -27,6 +28,10 @@ from acts_ros.bags.unpacking import CHUNK_BYTES_MAX, unpack, unpacked_bytes
 # How a message begins that zstd or lz4 has compressed; a serialised one begins with 0.
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x04\x22\x4d\x18")
 _NEEDED = "give the folder that `acts record` or `ros2 bag record` made, or its .mcap or .db3 file"
+
+# A second's work, with small messages several.
+_SILENT_BYTES_MAX = 100_000_000
+_told: set[Path] = set()
 
 
 @dataclass
@@ -229,9 +234,18 @@ def _open_unfinished(path: Path, reason: str, note: str) -> tuple[UnfinishedBag,
         raise RecordingError(
             f"'{path}' holds no bag that can be read: {reason}, and no file {' or '.join(SUFFIXES)}; {_NEEDED}"
         )
+    _tell_if_large(path, files)
     try:
         bag = UnfinishedBag(files)
     except RecordingError as damage:
         raise RecordingError(f"nothing in the bag '{path}' can be read: {damage}; {_NEEDED}") from damage
     unread = f"; not read: {'; '.join(bag.unread)}" if bag.unread else ""
     return bag, f"{note}; its complete records are read{unread}"
+
+
+def _tell_if_large(path: Path, files: Sequence[Path]) -> None:
+    """Print a line before a long silence, in which the files are read from end to end; once for each bag."""
+    size = sum(file.stat().st_size for file in files)
+    if size > _SILENT_BYTES_MAX and path not in _told:
+        _told.add(path)
+        print(f"reading all {size / 1e6:.0f} MB of '{path}', which has no index", file=sys.stderr, flush=True)

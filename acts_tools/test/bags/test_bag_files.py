@@ -183,6 +183,20 @@ def test_what_was_flushed_is_read_from_a_bag_that_was_never_closed(tmp_path: Pat
     assert read(tmp_path / "bag") == messages
 
 
+def test_before_a_large_bag_that_was_never_closed_is_read_it_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_bag(tmp_path / "closed", 12)
+    write_bag(tmp_path / "small", 12, close=False)
+    write_bag(tmp_path / "large", 12, close=False)
+    read(tmp_path / "small")
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr("acts_ros.bags.reading._SILENT_BYTES_MAX", 1000)
+    for path in ("closed", "large", "large"):
+        assert len(read(tmp_path / path)) == 12
+    assert capsys.readouterr().err == f"reading all 0 MB of '{tmp_path}/large', which has no index\n"
+
+
 @settings(deadline=None)
 @given(share=st.floats(0.0, 1.0))
 def test_a_bag_cut_off_anywhere_gives_its_whole_chunks_or_a_clear_error(share: float) -> None:
