@@ -77,8 +77,9 @@ def run(arguments: argparse.Namespace) -> int:
     output = _new_output(arguments)
     # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.lerobot import LeRobotWriter
-    from acts_tools.export.recording import Choice, open_recording
+    from acts_tools.export.recording import open_recording
     from acts_tools.export.tables import write_csv, write_npz, write_parquet
+    from acts_tools.export.topics import Choice
 
     # Learning has no use for a NaN: it would spread into the statistics of the dataset.
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")

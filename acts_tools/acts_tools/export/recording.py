@@ -15,53 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.names import full_name
 from acts_core.runtime import NS_PER_S
 from acts_core.skin import layout
 from acts_core.words import counted
 from acts_msgs.msg import RegionContacts
 from acts_ros.bags import require_rosbags
-from acts_ros.bags.skin_topics import IMAGE, SAMPLES, baseline_topic
-from acts_tools.bags.messages import is_in_counts, messages
+from acts_tools.bags.messages import messages
 from acts_tools.export.frames import Refused, Seen, contacts_in, recorded_frames, recovered_frames
+from acts_tools.export.topics import NO_JOINTS, Choice, ChosenTopics, chosen_topics
 from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, contact_track, contacts_track, joint_track
 
-_JOINTS = "sensor_msgs/msg/JointState"
 _REGIONS = "acts_msgs/msg/RegionContacts"
 _BACKWARD = "left out, not newer than one before: was a clock set?"
-NO_JOINTS = "none"
-"""In place of a topic of joint states: none is exported."""
 
 # Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
 _PAUSE_MAX_S = 60.0
 
 # An area is a whole number of taxels, at most 4096, in single precision.
 _WHOLE = 1e-3
-
-
-@dataclass(frozen=True)
-class Choice:
-    """What to export.
-
-    Attributes
-    ----------
-    skin : str
-        Its namespace; empty for the only one in the bag.
-    joints : str
-        Topic of joint states; empty for the only one in the bag, if there is one, `NO_JOINTS` for none.
-    layout : str
-        Layout of the skin, for recovery from samples.
-    rate_hz : float
-        Rows per second; 0: one row per frame.
-    numbers_only : bool
-        Whether values of joints that are no numbers are left out; see `joint_track`.
-    """
-
-    skin: str = ""
-    joints: str = ""
-    layout: str = "square"
-    rate_hz: float = 0.0
-    numbers_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -230,7 +201,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
     from acts_ros.bags.reading import open_bag
 
     with open_bag(path) as bag:
-        topics = _chosen_topics(bag, path, choice)
+        topics = chosen_topics(bag, path, choice)
         joints = joint_track(bag, path, topics.joints, numbers_only=choice.numbers_only) if topics.joints else Joints()
         if choice.joints not in ("", NO_JOINTS) and not joints.track.stamps_ns:
             why = "; ".join(joints.notes) or "no message names joints and says something of them"
@@ -266,34 +237,6 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
 
 
 @dataclass(frozen=True)
-class _Topics:
-    """What a bag has of one skin, and of the joints: full names; empty or None where it has no such topic."""
-
-    skin: str
-    images: str
-    samples: str
-    baseline: str | None
-    contact: str
-    contacts: str
-    joints: str
-
-
-def _chosen_topics(bag: Any, path: Path, choice: Choice) -> _Topics:
-    types = bag.topics()
-    skin = _skin(bag, path, types, choice.skin)
-    images, samples, contact, contacts = (f"{skin}/{name}" for name in ("image_raw", "samples", "contact", "contacts"))
-    baseline = baseline_topic(types, samples)
-    joints = _joint_topic(path, types, choice.joints)
-    for topic in (images, samples, baseline or "", contact, contacts, joints):
-        bag.check_definition(topic)
-    if types.get(images) != IMAGE or not is_in_counts(bag, path, images):
-        images = ""
-    if types.get(samples) != SAMPLES:
-        samples = ""
-    return _Topics(skin, images, samples, baseline, contact, contacts, joints)
-
-
-@dataclass(frozen=True)
 class _FoundContacts:
     """The total contact and the single ones beside the frames; their tracks are empty where they are not known.
 
@@ -308,7 +251,7 @@ class _FoundContacts:
     note: str
 
 
-def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str, refused: Refused) -> _FoundContacts:
+def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout: str, refused: Refused) -> _FoundContacts:
     """The recorded contacts; beside recorded images, those that lack are found in the samples."""
     contact = contact_track(bag, path, topics.contact)
     contacts = contacts_track(bag, path, topics.contacts)
@@ -337,33 +280,6 @@ def _contacts_of(bag: Any, path: Path, topics: _Topics, layout: str, refused: Re
         uses_layout,
         other_taxels,
     )
-
-
-def _skin(bag: Any, path: Path, types: dict[str, str], wanted: str) -> str:
-    found = sorted(
-        {
-            topic.rsplit("/", 1)[0]
-            for topic, kind in types.items()
-            if (kind == SAMPLES and topic.endswith("/samples"))
-            or (kind == IMAGE and topic.endswith("/image_raw") and is_in_counts(bag, path, topic))
-        }
-    )
-    found = [name for name in found if not (name.endswith("/view") and name.removesuffix("/view") in found)]
-    # Of a skin in the root namespace it is empty, before the slash of its topics.
-    listed = ", ".join(name or "/" for name in found)
-    if wanted:
-        name = f"/{wanted.strip('/')}".removesuffix("/")
-        if name not in found:
-            raise RecordingError(f"'{path}' has no skin {name or '/'}; it has {listed or 'none'}")
-        return name
-    if len(found) != 1:
-        raise RecordingError(
-            f"'{path}' has the skins {listed}: choose one with --skin"
-            if found
-            else f"'{path}' has no skin: needed is a topic image_raw (sensor_msgs/msg/Image, mono16) or samples "
-            f"({SAMPLES}); it has {', '.join(sorted(types)) or 'none'}{f'; {bag.note}' if bag.note else ''}"
-        )
-    return found[0]
 
 
 def _other_taxels(contact: Track[Values], topic: str, name: str) -> str:
@@ -397,17 +313,3 @@ def _layout_hint(bag: Any, path: Path, skin: str, layout: str) -> str:
         f"{topic} has {len(first.regions)} patches: with --layout NAME, as the driver had it, images are those of the "
         "patches, and what is recovered does not pass from one to another"
     )
-
-
-def _joint_topic(path: Path, types: dict[str, str], wanted: str) -> str:
-    found = sorted(topic for topic, kind in types.items() if kind == _JOINTS)
-    if wanted == NO_JOINTS:
-        return ""
-    if wanted:
-        topic = full_name(wanted)
-        if topic not in found:
-            raise RecordingError(f"'{path}' has no joint states on {topic}; it has {', '.join(found) or 'none'}")
-        return topic
-    if len(found) > 1:
-        raise RecordingError(f"'{path}' has joint states on {', '.join(found)}: choose one with --joints, or none")
-    return found[0] if found else ""

@@ -30,7 +30,8 @@ from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
 from acts_tools.cli import main
-from acts_tools.export.recording import Choice, Row, open_recording
+from acts_tools.export.recording import Row, open_recording
+from acts_tools.export.topics import Choice
 
 BEGIN_MS = 1_700_000_000_000
 SIDE = 32

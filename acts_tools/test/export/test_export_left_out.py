@@ -16,7 +16,8 @@ from test_export import contact, contacts, header, image, joints, pressed, rows_
 
 from acts_core.errors import ArrayError, RecordingError
 from acts_tools.cli import main
-from acts_tools.export.recording import Choice, open_recording
+from acts_tools.export.recording import open_recording
+from acts_tools.export.topics import Choice
 
 MAKE: dict[str, Callable[..., Any]] = {"image_raw": image, "samples": samples}
 

@@ -25,7 +25,8 @@ from acts_msgs.msg import Baseline, RegionContact, RegionContacts
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.writing import BagWriter
 from acts_tools.cli import main
-from acts_tools.export.recording import Choice, open_recording
+from acts_tools.export.recording import open_recording
+from acts_tools.export.topics import Choice
 
 
 def test_images_that_cannot_be_exported_leave_the_samples(tmp_path: Path) -> None:
