@@ -20,6 +20,7 @@ import pytest
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
+from pressed_frames import disc_recording
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -49,15 +50,12 @@ def running(*command: str, domain_id: int) -> Iterator[subprocess.Popen[str]]:
 @contextmanager
 def pressed_board(folder: Path, domain_id: int) -> Iterator[Path]:
     """A board that sees a disc of 21 taxels around row 8, column 24."""
-    rows, cols = np.mgrid[:32, :32]
-    disc = np.where(np.hypot(rows - 8, cols - 24) < 2.6, 700, 0).astype(np.uint16)
-    np.save(folder / "disc.npy", np.repeat(disc[np.newaxis], 4, axis=0))
     link = folder / "board"
     words = [
         "--link",
         str(link),
         "--recording",
-        str(folder / "disc.npy"),
+        str(disc_recording(folder)),
         "--loop",
         "--scheme",
         "tracking",
