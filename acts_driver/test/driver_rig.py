@@ -10,8 +10,8 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable
+from functools import partial
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -22,6 +22,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
+from waiting import wait_for
 
 from acts_driver.nodes.driver_node import DriverNode
 from acts_driver.nodes.intake import Intake
@@ -72,10 +73,8 @@ class Rig:
 
     def spin_until(self, condition: Callable[[], object], what: str) -> None:
         """Run callbacks until a condition is true; fail by name when it does not come true."""
-        end = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end, f"waited {DEADLINE_S:g} s for {what}; last status {self.statuses[-1:]}"
-            self.executor.spin_once(timeout_sec=0.02)
+        turn = partial(self.executor.spin_once, timeout_sec=0.02)
+        wait_for(condition, what, DEADLINE_S, turn, lambda: f"last status {self.statuses[-1:]}")
 
     def wait_until_active(self) -> None:
         """Until the driver publishes and the listener hears it."""
