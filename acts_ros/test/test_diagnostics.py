@@ -3,7 +3,7 @@
 
 """A diagnostic status over DDS; ROS_DOMAIN_ID 12."""
 
-import time
+from functools import partial
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -11,6 +11,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
+from waiting import wait_for
 
 from acts_ros.diagnostics import WARN, DiagnosticsReporter
 
@@ -48,20 +49,16 @@ def test_a_node_that_cannot_spin_yet_is_heard_until_it_can() -> None:
     received: list[DiagnosticArray] = []
     peer.create_subscription(DiagnosticArray, "/diagnostics", received.append, 10)
     reporter = DiagnosticsReporter(node, "/plate/samples", lambda: (WARN, "ready", {}), period_s=0.05)
-    deadline_s = time.monotonic() + 20
+    turn = partial(executor.spin_once, timeout_sec=0.05)
     with reporter.busy("compiling", period_s=0.05):
-        while len(received) < 2:
-            assert time.monotonic() < deadline_s, "timed out"
-            executor.spin_once(timeout_sec=0.05)
+        wait_for(lambda: len(received) >= 2, timeout_s=20.0, meanwhile=turn)
     for message in received:
         (status,) = message.status
         assert status.name == "plate/reconstruction"
         assert status.hardware_id == "/plate/samples"
         assert (status.level, status.message) == (b"\x01", "compiling")
     executor.add_node(node)
-    while sum(message.status[0].message == "ready" for message in received) < 3:
-        assert time.monotonic() < deadline_s, "timed out"
-        executor.spin_once(timeout_sec=0.05)
+    wait_for(lambda: sum(message.status[0].message == "ready" for message in received) >= 3, meanwhile=turn)
     words = [message.status[0].message for message in received]
     assert "compiling" not in words[words.index("ready") :]
     executor.shutdown()

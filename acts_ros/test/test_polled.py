@@ -13,12 +13,11 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
+from waiting import wait_for
 
 from acts_ros.executor import EventsExecutor
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_ros.qos import STREAM
-
-DEADLINE_S = 30.0
 
 
 class Pair:
@@ -43,10 +42,7 @@ class Pair:
                 publisher.publish(Int32(data=number))
 
     def until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            self.executor.spin_once(timeout_sec=0.02)
+        wait_for(condition, meanwhile=lambda: self.executor.spin_once(timeout_sec=0.02))
 
     def take_until(self, number: int) -> list[int]:
         taken: list[int] = []

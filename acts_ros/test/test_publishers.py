@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -15,11 +14,10 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Int32
+from waiting import wait_for
 
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
 from acts_ros.publishers import SAME_NAME_S, OnlyPublishers
-
-DEADLINE_S = 30.0
 
 
 class Graph:
@@ -41,10 +39,7 @@ class Graph:
         return other
 
     def until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            self.executor.spin_once(timeout_sec=0.02)
+        wait_for(condition, meanwhile=lambda: self.executor.spin_once(timeout_sec=0.02))
 
 
 @pytest.fixture
