@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any
 
 import pytest
 from motor_process import MotorProcess
+from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
@@ -51,12 +51,9 @@ class Bus(MotorProcess):
 
 
 def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool]) -> HandReading:
-    end_s = time.monotonic() + DEADLINE_S
-    while True:
-        reading = hand.read()
-        if condition(reading):
-            return reading
-        assert time.monotonic() < end_s, reading
+    read = [hand.read()]
+    wait_for(lambda: condition(read[-1]), "a reading", DEADLINE_S, lambda: read.append(hand.read()), lambda: read[-1])
+    return read[-1]
 
 
 def leave_at(bus: Bus, angle_rad: float) -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -17,6 +16,7 @@ from dynamixel_bus import DEADLINE_S
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 Spin = Callable[[Callable[[], bool]], None]
 
@@ -42,12 +42,12 @@ def node_and_user(
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
 
+    def turn() -> None:
+        assert process.poll() is None
+        executor.spin_once(timeout_sec=0.05)
+
     def until(condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s
-            assert process.poll() is None
-            executor.spin_once(timeout_sec=0.05)
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=turn)
 
     try:
         yield process, node, until

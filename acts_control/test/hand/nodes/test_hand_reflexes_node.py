@@ -20,6 +20,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+from waiting import wait_for
 
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
@@ -279,10 +280,12 @@ def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None
         hand.loop.status = replace(hand.loop.status, phase=HandPhase.GIVEN_UP, reason="index_pip: overload, 2 times")
         told: list[HandStatus] = []
         user.create_subscription(HandStatus, "hand/status", told.append, 10)
-        end_s = time.monotonic() + DEADLINE_S
-        while not told or told[-1].reason != "the hand is given up: index_pip: overload, 2 times":
-            assert time.monotonic() < end_s, told[-1:]
-            executor.spin_once(timeout_sec=0.05)
+        wait_for(
+            lambda: told and told[-1].reason == "the hand is given up: index_pip: overload, 2 times",
+            timeout_s=DEADLINE_S,
+            meanwhile=lambda: executor.spin_once(timeout_sec=0.05),
+            state=lambda: told[-1:],
+        )
     finally:
         executor.shutdown()
         user.destroy_node()
