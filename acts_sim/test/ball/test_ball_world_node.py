@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from geometry_msgs.msg import PointStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_core.robots import ur5e
@@ -53,10 +55,8 @@ class Observer:
             self.reports.append((status.level, status.message, {item.key: item.value for item in status.values}))
 
     def until(self, condition: Callable[[], bool], what: str) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, f"{what}; last reports {self.reports[-2:]}"
-            self.executor.spin_once(timeout_sec=0.02)
+        turn = partial(self.executor.spin_once, timeout_sec=0.02)
+        wait_for(condition, what, DEADLINE_S, turn, lambda: f"last reports {self.reports[-2:]}")
 
     def until_reported(self, level: bytes, words: str) -> dict[str, str]:
         seen = len(self.reports)
@@ -66,7 +66,7 @@ class Observer:
             found[:] = [values for at, message, values in self.reports[seen:] if at == level and words in message]
             return bool(found)
 
-        self.until(reported, f"no report of {words!r}")
+        self.until(reported, f"a report of {words!r}")
         return found[-1]
 
     def close(self) -> None:
