@@ -3,7 +3,6 @@
 
 """The node reconstruction in a ROS domain, and a node beside it that samples and listens."""
 
-import time
 from array import array
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -19,6 +18,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Header
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_msgs.msg import Contact, TactileSamples
@@ -78,10 +78,7 @@ class Peers:
 
     def until(self, condition: Callable[[], bool]) -> None:
         """Spin all nodes until a condition holds."""
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            self.executor.spin_once(timeout_sec=0.05)
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=lambda: self.executor.spin_once(timeout_sec=0.05))
 
     def close(self) -> None:
         """Destroy all nodes."""
