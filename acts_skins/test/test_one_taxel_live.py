@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -21,6 +20,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from waiting import wait_for
 
 from acts_core.skin import ForceResponse
 from acts_msgs.msg import BoardState, Contact, Spectrum
@@ -68,10 +68,7 @@ def test_a_tone_of_3_khz_is_told_when_the_board_is_set_to_one_taxel(tmp_path: Pa
     executor.add_node(node)
 
     def until(condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            executor.spin_once(timeout_sec=0.05)
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=lambda: executor.spin_once(timeout_sec=0.05))
 
     contacts: list[Contact] = []
     states: list[BoardState] = []

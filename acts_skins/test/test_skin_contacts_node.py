@@ -11,7 +11,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +23,7 @@ from geometry_msgs.msg import TransformStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, Contacts, SkinContacts, SkinState, TrackedContact
@@ -93,11 +93,11 @@ class Robot:
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 10**9)
 
     def until(self, condition: Callable[[], bool], meanwhile: Callable[[], Any] = lambda: None) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, self.merged[-1:]
+        def turn() -> None:
             meanwhile()
             self._executor.spin_once(timeout_sec=0.005)
+
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=turn, state=lambda: self.merged[-1:])
 
     def close(self) -> None:
         self._executor.shutdown()

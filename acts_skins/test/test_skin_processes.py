@@ -23,6 +23,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import pause, wait_for
 
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_msgs.msg import Contact
@@ -67,11 +68,8 @@ class Skins:
         pids = re.findall(rf"\[{label}\]: process started with pid \[(\d+)\]", self.output)
         return psutil.Process(int(pids[-1]))
 
-    def until(self, condition: Callable[[], bool], step: Callable[[], Any] = lambda: time.sleep(0.02)) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, self.output
-            step()
+    def until(self, condition: Callable[[], bool], step: Callable[[], Any] = pause) -> None:
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=step, state=lambda: self.output)
 
 
 @contextmanager

@@ -9,7 +9,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +23,7 @@ from pressed_frames import disc_recording
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE
@@ -64,15 +64,8 @@ def pressed_board(folder: Path, domain_id: int) -> Iterator[Path]:
     ]
     program = f"{get_package_prefix('acts_firmware')}/lib/acts_firmware/virtual_board"
     with running(program, *words, domain_id=domain_id):
-        wait_until(lambda: os.path.lexists(link))
+        wait_for(lambda: os.path.lexists(link), "the board")
         yield link
-
-
-def wait_until(condition: Callable[[], bool], step: Callable[[], None] = lambda: time.sleep(0.01)) -> None:
-    deadline_s = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < deadline_s, "timed out"
-        step()
 
 
 class Listener:
@@ -91,7 +84,7 @@ class Listener:
         return messages
 
     def until(self, condition: Callable[[], bool]) -> None:
-        wait_until(condition, lambda: self.executor.spin_once(timeout_sec=0.05))
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=lambda: self.executor.spin_once(timeout_sec=0.05))
 
     def close(self) -> None:
         self.executor.shutdown()
