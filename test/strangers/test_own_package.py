@@ -20,6 +20,7 @@ from geometry_msgs.msg import PointStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame, Scheme
@@ -105,12 +106,13 @@ def test_its_node_recovers_frames_and_ends_in_order(workspace: Path) -> None:
         message = SamplesMessage("left")
         publisher = node.create_publisher(TactileSamples, "samples", STREAM)
         node.create_subscription(PointStamped, "pressed", heard.append, STATE)
-        end_s = time.monotonic() + DEADLINE_S
-        while not heard:
-            assert time.monotonic() < end_s
+
+        def turn() -> None:
             assert process.poll() is None
             publisher.publish(message.fill(frame, time.time_ns()))
             executor.spin_once(timeout_sec=0.05)
+
+        wait_for(lambda: heard, "a force", DEADLINE_S, turn)
         process.send_signal(signal.SIGINT)
         assert process.wait(DEADLINE_S) == 0
     finally:
