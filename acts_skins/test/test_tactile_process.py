@@ -9,20 +9,16 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
+from peers import Peers
 from pressed_frames import disc_recording
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from waiting import wait_for
 
 from acts_core.array import ArrayGeometry
@@ -68,33 +64,15 @@ def pressed_board(folder: Path, domain_id: int) -> Iterator[Path]:
         yield link
 
 
-class Listener:
+class Listener(Peers):
     """What comes out of the process."""
 
-    def __init__(self, domain_id: int) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.node = Node("listener", namespace="/plate", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-
-    def listen(self, kind: type, topic: str, profile: Any) -> list[Any]:
-        messages: list[Any] = []
-        self.node.create_subscription(kind, topic, messages.append, profile)
-        return messages
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=lambda: self.executor.spin_once(timeout_sec=0.05))
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
+    timeout_s = DEADLINE_S
 
 
 @pytest.fixture
 def listener(request: pytest.FixtureRequest) -> Iterator[Listener]:
-    made = Listener(request.param)
+    made = Listener(request.param, namespace="/plate")
     yield made
     made.close()
 
