@@ -41,6 +41,7 @@ class UrProcess(Process):
         super().__init__(*program, "--host", host, "--hook-port", str(HOOK_PORT), *options)
 
     def _start(self) -> subprocess.Popen[str]:
+        # What an earlier run has written does not count.
         self.output.seek(0)
         self.output.truncate()
         self.process = super()._start()

@@ -15,9 +15,8 @@ import rclpy
 from geometry_msgs.msg import Vector3Stamped
 from rclpy.client import Client
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.task import Future
+from spinning import Spinning
 from std_srvs.srv import Trigger
 from ur_process import UrProcess
 from waiting import wait_for
@@ -45,9 +44,8 @@ class Bench:
         self.context = Context()
         rclpy.init(context=self.context, domain_id=domain)
         self.node = Node("bench", namespace="/plate", context=self.context)
-        self._executor = SingleThreadedExecutor(context=self.context)
-        self._executor.add_node(self.node)
-        self._added: list[Node] = []
+        self._nodes = [self.node]
+        self._spinning: Spinning | None = None
         self.statuses: list[BalanceStatus] = []
         self.states: list[BallState] = []
         self.references: list[BallReference] = []
@@ -61,23 +59,14 @@ class Bench:
         ):
             self.node.create_subscription(kind, topic, into.append, STATE)
         self._clients: dict[str, Client] = {}
-        self._ended: Future[None] = Future()
-        self._thread = threading.Thread(target=self._spin, daemon=True)
 
     def add(self, node: Node) -> None:
-        """Spin another node too, and destroy it at the end, when nothing spins any more."""
-        self._executor.add_node(node)
-        self._added.append(node)
+        """Spin another node too once it starts, and destroy it at the end, when nothing spins any more."""
+        self._nodes.append(node)
 
     def start(self) -> None:
         """Begin to spin."""
-        self._thread.start()
-
-    def _spin(self) -> None:
-        try:
-            self._executor.spin_until_future_complete(self._ended)
-        except ExternalShutdownException:
-            return
+        self._spinning = Spinning(self.context, *self._nodes)
 
     @property
     def phase(self) -> int:
@@ -120,12 +109,10 @@ class Bench:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._ended.set_result(None)
-        if self._thread.is_alive():
-            self._thread.join(10.0)
-        self._executor.shutdown()
+        if self._spinning is not None:
+            self._spinning.end()
         rclpy.try_shutdown(context=self.context)
-        for node in (*self._added, self.node):
+        for node in reversed(self._nodes):
             node.destroy_node()
 
 
