@@ -177,7 +177,7 @@ def test_a_board_that_says_nothing_more_is_not_tared(tmp_path: Path) -> None:
                         answer = tare(number)
                         if condition(answer):
                             return
-                        assert time.monotonic() < deadline_s, answer
+                        assert time.monotonic() < deadline_s, (text_of(condition), answer)
 
                 until(lambda answer: answer["done"], 1)
                 board.process.send_signal(signal.SIGSTOP)
