@@ -26,7 +26,7 @@ def main() -> int:
     # pyproject.toml leaves conftest.py of folders out above, and each has a run of its own, most of it from the cache.
     for folder in tests:
         for path in sorted((ROOT / folder).rglob("conftest.py")):
-            codes.append(mypy("--no-error-summary", str(path.relative_to(ROOT)), path=folder))
+            codes.append(mypy("--no-error-summary", str(path.relative_to(ROOT)), path=f"{folder}:test"))
     return max(codes)
 
 

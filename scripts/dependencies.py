@@ -36,6 +36,8 @@ WITHOUT_KEY |= {"backports", "compression", "lz4"}  # rosbags brings them
 WITHOUT_KEY |= {"websockets"}
 # What finds the files that a package installs.
 SHARES = ("get_package_share_directory", "get_package_prefix", "packages.share")
+# Modules for the tests of all packages: who imports one needs what it imports.
+SHARED = {path.stem: path for path in (ROOT / "test").glob("*.py")}
 EXECUTION = ("depend", "exec_depend")
 TESTS = (*EXECUTION, "test_depend")
 
@@ -45,8 +47,13 @@ def imported(folder: Path) -> set[str]:
 
     Anywhere in a folder, without those of Python and of the folder itself.
     """
-    files = sorted(folder.rglob("*.py"))
-    names = {name.split(".")[0] for file in files for name in _names(ast.parse(file.read_bytes()))}
+    files: set[Path] = set()
+    names: set[str] = set()
+    more = set(folder.rglob("*.py"))
+    while more:
+        files |= more
+        names |= {name.split(".")[0] for file in more for name in _names(ast.parse(file.read_bytes()))}
+        more = {SHARED[name] for name in names & SHARED.keys()} - files
     return names - sys.stdlib_module_names - {file.stem for file in files} - WITHOUT_KEY
 
 

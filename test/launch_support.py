@@ -6,7 +6,6 @@
 import re
 from pathlib import Path
 
-import numpy as np
 from ament_index_python.packages import get_package_share_directory
 
 from acts_tools.testing.launch_runner import Launched
@@ -36,12 +35,3 @@ def shipped_parameters_and(folder: Path, file: str, node: str, parameters: str) 
     shipped = Path(get_package_share_directory("acts_config")) / "params" / f"{file}.yaml"
     path.write_text(f"{shipped.read_text()}\n{node}:\n  ros__parameters: {parameters}\n")
     return str(path)
-
-
-def disc_recording(folder: Path) -> Path:
-    """A recording of a disc of 21 taxels pressed at rest, off the centre, where 55 samples see all of it."""
-    rows, cols = np.mgrid[:32, :32]
-    disc = np.where(np.hypot(rows - 8, cols - 24) < 2.6, 700, 0).astype(np.uint16)
-    path = folder / "disc.npy"
-    np.save(path, np.repeat(disc[np.newaxis], 4, axis=0))
-    return path

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import itertools
-import time
 from collections.abc import Callable
 
 from acts_control.robots.base import RobotReading
@@ -69,11 +68,3 @@ class ArmInProcess:
 
     def disconnect(self) -> None:
         self.calls.append("disconnect")
-
-
-def wait_for(condition: Callable[[], bool], what: str | Callable[[], str]) -> None:
-    """Poll until a condition holds. `what` tells of it at the end, where it does not."""
-    deadline = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < deadline, f"waited in vain for: {what if isinstance(what, str) else what()}"
-        time.sleep(0.002)

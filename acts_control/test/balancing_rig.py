@@ -9,7 +9,8 @@ import signal
 import time
 from contextlib import ExitStack
 
-from control_rig import SimulatedRobot, wait_for
+from control_rig import SimulatedRobot
+from waiting import wait_for
 
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.robots import with_robots

@@ -5,142 +5,36 @@
 
 from __future__ import annotations
 
-import json
-import os
-import signal
-import socket
-import subprocess
 import sys
-import tempfile
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from types import TracebackType
-from typing import Any, TypeVar
 
 import rclpy
 from geometry_msgs.msg import Vector3Stamped
 from rclpy.client import Client
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.task import Future
+from spinning import Spinning
 from std_srvs.srv import Trigger
+from ur_process import UrProcess
+from waiting import wait_for
 
 from acts_control.ball.plate import acceleration_of
-from acts_control.robots.ur.ur_probe import DASHBOARD_PORT
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, Contact, StreamStatistics
 from acts_ros.messages import set_stamp
 from acts_ros.qos import STATE, STREAM
 
-HOOK_PORT = 30100
 START_TIMEOUT_S = 30.0
 
 
-def wait_for(condition: Callable[[], bool], what: str | Callable[[], str], timeout_s: float = 30.0) -> None:
-    """Poll until a condition holds. `what` tells of it at the end, where it does not."""
-    deadline = time.monotonic() + timeout_s
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"waited {timeout_s} s in vain for: {what if isinstance(what, str) else what()}")
-        time.sleep(0.005)
-
-
-P = TypeVar("P", bound="Process")
-
-
-class Process:
-    """A child whose output is kept; stopped with one SIGINT."""
-
-    def __init__(self, *command: str, domain: int | None = None) -> None:
-        environment = {**os.environ, "ROS_PYTHON_CHECK_FIELDS": "1"}
-        if domain is not None:
-            environment["ROS_DOMAIN_ID"] = str(domain)
-        # A file, not a pipe: nobody reads it while the process runs. Closed in `stop`.
-        self.output = tempfile.TemporaryFile()  # noqa: SIM115
-        self.process = subprocess.Popen(
-            command, env=environment, stdout=self.output, stderr=subprocess.STDOUT, text=True, start_new_session=True
-        )
-
-    def text(self) -> str:
-        """Everything it has written."""
-        # Without a seek: that would move the place where the process goes on to write.
-        file = self.output.fileno()
-        return os.pread(file, os.fstat(file).st_size, 0).decode()
-
-    def stop(self, number: signal.Signals = signal.SIGINT, timeout_s: float = 20.0) -> int:
-        """Signal it once and wait; the exit code."""
-        if self.process.poll() is None:
-            self.process.send_signal(number)
-            # One that a test has made stand still would not get it.
-            self.process.send_signal(signal.SIGCONT)
-        try:
-            return self.process.wait(timeout_s)
-        finally:
-            if self.process.poll() is None:
-                self.process.kill()
-                self.process.wait()
-
-    def __enter__(self: P) -> P:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.stop(signal.SIGTERM)
-        if error is not None:
-            print(self.text())
-        self.output.close()
-
-
-class SimulatedRobot(Process):
+class SimulatedRobot(UrProcess):
     """A simulated UR5e, to begin with in the level pose."""
 
     def __init__(self, host: str, q_rad: Sequence[float] = ur5e.LEVEL_Q_RAD) -> None:
-        self.host = host
-        start = ", ".join(str(angle) for angle in q_rad)
-        hooks = ["--hook-port", str(HOOK_PORT), "--unlock-after-s", "0"]
-        super().__init__(
-            sys.executable,
-            "-m",
-            "acts_ros.executables.program",
-            "acts_sim.ur.main",
-            "--host",
-            host,
-            "--q0",
-            start,
-            *hooks,
-        )
-        try:
-            wait_for(lambda: "ready" in self.text() or self.process.poll() is not None, "the simulated robot")
-            assert self.process.poll() is None
-        except AssertionError as error:
-            self.stop(signal.SIGKILL)
-            raise AssertionError(f"{error}: {self.text()!r}") from error
-
-    def hook(self, line: str) -> str:
-        """Do what a person at the robot could do."""
-        with socket.create_connection((self.host, HOOK_PORT), timeout=10.0) as connection:
-            connection.sendall(line.encode() + b"\n")
-            return connection.makefile("r").readline().strip()
-
-    def ask_dashboard(self, line: str) -> str:
-        """Do what a person does at the robot's panel; what it answers."""
-        with socket.create_connection((self.host, DASHBOARD_PORT), timeout=10.0) as connection:
-            lines = connection.makefile("rw")
-            lines.readline()
-            lines.write(line + "\n")
-            lines.flush()
-            return lines.readline().strip()
-
-    def state(self) -> dict[str, Any]:
-        """Joint angles, program, safety."""
-        return dict(json.loads(self.hook("state")))
-
-    def orders(self) -> list[tuple[float, str, str]]:
-        """What clients have told it to do: the robot's time [s], the port, and what."""
-        return [tuple(order) for order in json.loads(self.hook("orders"))]
+        super().__init__(host, "--unlock-after-s", "0", "--q0", ", ".join(map(str, q_rad)))
 
 
 class Bench:
@@ -150,9 +44,8 @@ class Bench:
         self.context = Context()
         rclpy.init(context=self.context, domain_id=domain)
         self.node = Node("bench", namespace="/plate", context=self.context)
-        self._executor = SingleThreadedExecutor(context=self.context)
-        self._executor.add_node(self.node)
-        self._added: list[Node] = []
+        self._nodes = [self.node]
+        self._spinning: Spinning | None = None
         self.statuses: list[BalanceStatus] = []
         self.states: list[BallState] = []
         self.references: list[BallReference] = []
@@ -166,23 +59,14 @@ class Bench:
         ):
             self.node.create_subscription(kind, topic, into.append, STATE)
         self._clients: dict[str, Client] = {}
-        self._ended: Future[None] = Future()
-        self._thread = threading.Thread(target=self._spin, daemon=True)
 
     def add(self, node: Node) -> None:
-        """Spin another node too, and destroy it at the end, when nothing spins any more."""
-        self._executor.add_node(node)
-        self._added.append(node)
+        """Spin another node too once it starts, and destroy it at the end, when nothing spins any more."""
+        self._nodes.append(node)
 
     def start(self) -> None:
         """Begin to spin."""
-        self._thread.start()
-
-    def _spin(self) -> None:
-        try:
-            self._executor.spin_until_future_complete(self._ended)
-        except ExternalShutdownException:
-            return
+        self._spinning = Spinning(self.context, *self._nodes)
 
     @property
     def phase(self) -> int:
@@ -225,12 +109,10 @@ class Bench:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._ended.set_result(None)
-        if self._thread.is_alive():
-            self._thread.join(10.0)
-        self._executor.shutdown()
+        if self._spinning is not None:
+            self._spinning.end()
         rclpy.try_shutdown(context=self.context)
-        for node in (*self._added, self.node):
+        for node in reversed(self._nodes):
             node.destroy_node()
 
 

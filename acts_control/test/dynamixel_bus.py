@@ -6,47 +6,29 @@
 from __future__ import annotations
 
 import json
-import signal
-import subprocess
-import sys
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from motor_process import MotorProcess
+from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
-from acts_sim.dynamixel import ControlClient
 
 DEADLINE_S = 30.0
 # Half of how long an answer is waited for: a loaded machine is slow.
 TIMEOUT_MS = 150.0
 
 
-class Bus:
+class Bus(MotorProcess):
     """The simulated motors."""
 
     def __init__(self, folder: Path, *options: str) -> None:
-        self.link, self.control = folder / "hand", folder / "control"
         self._hands: list[DynamixelHand] = []
-        self.process = subprocess.Popen(
-            [
-                *(sys.executable, "-m", "acts_ros.executables.program", "acts_sim.dynamixel.main"),
-                *("--link", str(self.link)),
-                *("--control", str(self.control), "--return-delay", "0", *options),
-            ],
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stdout is not None
-        self.process.stdout.readline()
-
-    def command(self, line: str) -> str:
-        with ControlClient(self.control) as client:
-            return client.ask(line)
+        super().__init__(folder, "acts_sim.dynamixel.main", "--return-delay", "0", *options)
 
     def motors(self) -> list[dict[str, Any]]:
         return list(json.loads(self.command("state"))["motors"])
@@ -65,17 +47,13 @@ class Bus:
     def close(self) -> None:
         for hand in self._hands:
             hand.close()
-        self.process.send_signal(signal.SIGINT)
-        assert self.process.wait(DEADLINE_S) == 0
+        super().close()
 
 
 def reading_where(hand: DynamixelHand, condition: Callable[[HandReading], bool]) -> HandReading:
-    end_s = time.monotonic() + DEADLINE_S
-    while True:
-        reading = hand.read()
-        if condition(reading):
-            return reading
-        assert time.monotonic() < end_s, reading
+    read = [hand.read()]
+    wait_for(lambda: condition(read[-1]), "a reading", DEADLINE_S, lambda: read.append(hand.read()), lambda: read[-1])
+    return read[-1]
 
 
 def leave_at(bus: Bus, angle_rad: float) -> None:

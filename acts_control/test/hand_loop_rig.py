@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from dynamixel_bus import DEADLINE_S, Bus
+from waiting import wait_for
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import LEAP_RIGHT, HandDescription
@@ -49,10 +49,7 @@ class Running:
         assert self.may_go_on.wait(DEADLINE_S)
 
     def until(self, condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s, (self.loop.status, self.log)
-            time.sleep(0.005)
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (self.loop.status, self.log))
 
     def until_phase(self, phase: HandPhase) -> None:
         self.until(lambda: self.loop.status.phase is phase)

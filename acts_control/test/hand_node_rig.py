@@ -8,14 +8,10 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-import rclpy
-from dynamixel_bus import DEADLINE_S
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from peers import Peers
 from rclpy.node import Node
 
 Spin = Callable[[Callable[[], bool]], None]
@@ -36,24 +32,14 @@ def node_and_user(
         stderr=subprocess.PIPE,
         text=True,
     )
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    node = rclpy.create_node("user", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
+    user = Peers(domain_id, "user")
 
-    def until(condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s
-            assert process.poll() is None
-            executor.spin_once(timeout_sec=0.05)
+    def look() -> None:
+        assert process.poll() is None
 
     try:
-        yield process, node, until
+        yield process, user.peer, lambda condition: user.until(condition, look)
     finally:
         process.kill()
         process.wait()
-        executor.shutdown()
-        node.destroy_node()
-        context.try_shutdown()
+        user.close()

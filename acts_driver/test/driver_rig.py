@@ -10,16 +10,13 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from lifecycle_msgs.srv import ChangeState, GetState
+from peers import Peers
 from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
@@ -37,16 +34,16 @@ def intake_of(driver: DriverNode) -> Intake:
     return driver.intake
 
 
-class Rig:
+class Rig(Peers):
     """Spins what a test adds to it, and keeps what arrives."""
 
+    timeout_s = DEADLINE_S
+    turn_s = 0.02
+
     def __init__(self, domain_id: int) -> None:
+        super().__init__(domain_id, "listener", "/plate")
         self.domain_id = domain_id
-        self.context = Context()
-        rclpy.init(args=[], context=self.context, domain_id=self.domain_id)
-        self.listener = Node("listener", namespace="/plate", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.listener)
+        self.listener = self.peer
         self.samples: list[TactileSamples] = []
         self.statuses: list[dict[str, str]] = []
         self.subscription = self.listener.create_subscription(TactileSamples, "samples", self.samples.append, STREAM)
@@ -72,10 +69,11 @@ class Rig:
 
     def spin_until(self, condition: Callable[[], object], what: str) -> None:
         """Run callbacks until a condition is true; fail by name when it does not come true."""
-        end = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end, f"waited {DEADLINE_S:g} s for {what}; last status {self.statuses[-1:]}"
-            self.executor.spin_once(timeout_sec=0.02)
+        self.until(condition, what=what)
+
+    def situation(self) -> str:
+        """What the driver has told last."""
+        return f"last status {self.statuses[-1:]}"
 
     def wait_until_active(self) -> None:
         """Until the driver publishes and the listener hears it."""

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import os
 import select
-import time
 import tty
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,15 +16,6 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import encode_frame
 
 DEADLINE_S = 20.0
-
-
-def wait_for(condition: Callable[[], object], what: str, deadline_s: float = DEADLINE_S) -> None:
-    """Poll a condition; fail by name when it does not come true."""
-    end = time.monotonic() + deadline_s
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited {deadline_s:g} s for {what}")
-        time.sleep(0.005)
 
 
 def frame(sequence: int, *, rows: int = 32, cols: int = 32, m: int = 5, board_us: int | None = None) -> SampleFrame:

@@ -6,9 +6,9 @@
 from __future__ import annotations
 
 import os
-import time
 
 from board_process import DEADLINE_S, BoardProcess
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import (
@@ -42,24 +42,23 @@ class BoardClient:
 
     def read_until_messages(self, kind: type, count: int) -> list[BoardMessage]:
         """The first `count` messages of a kind."""
-        deadline = time.monotonic() + DEADLINE_S
-        while True:
-            found = [message for message in self.messages if isinstance(message, kind)]
-            if len(found) >= count:
-                return found[:count]
-            assert time.monotonic() < deadline, f"{len(found)} of {count} {kind.__name__}"
-            self.read()
+
+        def found() -> list[BoardMessage]:
+            return [message for message in self.messages if isinstance(message, kind)]
+
+        wait_for(lambda: len(found()) >= count, f"{count} {kind.__name__}", DEADLINE_S, self.read, found)
+        return found()[:count]
 
     def _reply(self, packet: bytes) -> Reply:
         assert os.write(self._port, packet) == len(packet)
-        deadline = time.monotonic() + DEADLINE_S
-        while True:
-            for message in self.messages:
-                if isinstance(message, Reply) and message.request == self._request:
-                    assert message.status is ReplyStatus.OK, message
-                    return message
-            assert time.monotonic() < deadline, "no reply"
-            self.read()
+
+        def reply() -> Reply | None:
+            replies = (message for message in self.messages if isinstance(message, Reply))
+            return next((reply for reply in replies if reply.request == self._request), None)
+
+        message = wait_for(reply, "a reply", DEADLINE_S, self.read)
+        assert message.status is ReplyStatus.OK, message
+        return message
 
     def _next(self) -> int:
         self._request += 1

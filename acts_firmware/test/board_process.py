@@ -19,6 +19,7 @@ from types import TracebackType
 from typing import Any
 
 from core_library import installed
+from waiting import text_of
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import DelimitedDecoder, StreamDecoder
@@ -115,7 +116,7 @@ class BoardProcess:
             for frame in self.decoder.feed(self.read_bytes()):
                 if wanted(frame):
                     return frame
-        raise AssertionError(f"no such frame within {DEADLINE_S} s")
+        raise AssertionError(f"no such frame within {DEADLINE_S} s: {text_of(wanted)}")
 
     def stand_still(self, for_s: float) -> tuple[int, float]:
         """Stop the process and let it go on; returns when that was, CLOCK_MONOTONIC [ns], and how long it took [s].

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from recon_bench import Bench, Peers
+from recon_bench import Bench, Listener
 
 from acts_recon.sparse import Dictionary, save_dictionary
 
@@ -51,12 +51,12 @@ def make_bench(dictionary_path: Path) -> Iterator[Callable[..., Bench]]:
 
 
 @pytest.fixture
-def make_peers() -> Iterator[Callable[..., Peers]]:
+def make_peers() -> Iterator[Callable[..., Listener]]:
     """A function that starts a node that listens in the ROS domain of a number; other nodes can be added to it."""
-    made: list[Peers] = []
+    made: list[Listener] = []
 
-    def make(domain_id: int, namespace: str = "/plate") -> Peers:
-        made.append(Peers(domain_id, namespace))
+    def make(domain_id: int, namespace: str = "/plate") -> Listener:
+        made.append(Listener(domain_id, namespace))
         return made[-1]
 
     yield make

@@ -3,7 +3,6 @@
 
 """The node reconstruction in a ROS domain, and a node beside it that samples and listens."""
 
-import time
 from array import array
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -11,13 +10,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-import rclpy
 from builtin_interfaces.msg import Duration, Time
 from diagnostic_msgs.msg import DiagnosticArray
 from numpy.typing import NDArray
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
 from std_msgs.msg import Header
 
 from acts_core.frames import SampleFrame, Scheme
@@ -26,7 +22,6 @@ from acts_recon.nodes.frame_publisher import FramePublisher
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_ros import qos
 
-Added = TypeVar("Added", bound=Node)
 Publisher = TypeVar("Publisher", bound=FramePublisher)
 
 DEADLINE_S = 30.0
@@ -45,53 +40,22 @@ def publisher_of(node: ReconstructionNode, kind: type[Publisher]) -> Publisher:
     return next(one for one in node._parts if isinstance(one, kind))
 
 
-class Peers:
-    """Nodes in one ROS domain, and one beside them that listens.
-
-    Parameters
-    ----------
-    domain_id : int
-    namespace : str
-        Of the node that listens.
-    """
+class Listener(Peers):
+    """Keeps all that it hears; in namespace /plate where nothing else is said."""
 
     def __init__(self, domain_id: int, namespace: str = "/plate") -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.nodes: list[Node] = []
-        self.peer = Node("peer", namespace=namespace, context=self.context)
-        self.add(self.peer)
+        super().__init__(domain_id, namespace=namespace)
         self.received: dict[str, list[Any]] = {}
 
-    def add(self, node: Added) -> Added:
-        """Spin a node, and destroy it at the end."""
-        self.nodes.append(node)
-        self.executor.add_node(node)
-        return node
-
-    def listen(self, kind: type, topic: str, profile: Any) -> None:
+    def listen(self, kind: type, topic: str, profile: Any) -> list[Any]:
         """Keep what comes on a topic; returns when somebody publishes it."""
         messages = self.received.setdefault(topic, [])
         subscription = self.peer.create_subscription(kind, topic, messages.append, profile)
         self.until(lambda: subscription.get_publisher_count() > 0)
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        """Spin all nodes until a condition holds."""
-        deadline = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline, "timed out"
-            self.executor.spin_once(timeout_sec=0.05)
-
-    def close(self) -> None:
-        """Destroy all nodes."""
-        self.executor.shutdown()
-        for node in self.nodes:
-            node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
+        return messages
 
 
-class Bench(Peers):
+class Bench(Listener):
     """The node in namespace /plate, and a node beside it that publishes samples and keeps what comes back."""
 
     def __init__(self, domain_id: int, dictionary_path: Path, parameters: dict[str, object]) -> None:

@@ -6,6 +6,7 @@
 import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from pressed_frames import press
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import measure_in
@@ -17,8 +18,7 @@ def bump(
     geometry: ArrayGeometry, row: float, col: float, *, width: float = 1.5, peak: float = 700
 ) -> NDArray[np.uint16]:
     """A round contact; counts (rows, cols)."""
-    r, c = np.indices((geometry.rows, geometry.cols))
-    return np.rint(peak * np.exp(-((r - row) ** 2 + (c - col) ** 2) / (2 * width**2))).astype(np.uint16)
+    return press(row, col, width, peak, (geometry.rows, geometry.cols))
 
 
 def sample(frame: NDArray[np.uint16], m: int) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:

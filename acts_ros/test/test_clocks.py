@@ -15,6 +15,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from waiting import wait_for
 
 from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
 from acts_ros.parameters import node_options
@@ -73,10 +74,7 @@ def test_what_is_asked_for_after_a_node_stood_still_is_told_from_what_is_new(con
     executor.add_node(node)
 
     def spin_until(condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + 30.0
-        while not condition():
-            assert time.monotonic() < end_s
-            executor.spin_once(timeout_sec=0.05)
+        wait_for(condition, meanwhile=lambda: executor.spin_once(timeout_sec=0.05))
 
     # However long a node takes to be made.
     stalls.begin()

@@ -7,10 +7,8 @@ import time
 from collections.abc import Callable, Iterator
 
 import pytest
-import rclpy
-from rclpy.context import Context
+from peers import Peers
 from rclpy.executors import Executor, SingleThreadedExecutor
-from rclpy.node import Node
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
@@ -18,35 +16,25 @@ from acts_ros.executor import EventsExecutor
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_ros.qos import STREAM
 
-DEADLINE_S = 30.0
 
+class Pair(Peers):
+    """A node that is asked, and another one that publishes."""
 
-class Pair:
-    """A node that is asked, on an executor, and another one that publishes."""
+    turn_s = 0.02
 
-    def __init__(self, make_executor: Callable[[Context], Executor]) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=134)
-        self.node = PollingNode("asked", context=self.context)
+    def __init__(self, make_executor: Callable[..., Executor]) -> None:
+        super().__init__(134, make_executor=make_executor)
+        self.node = self.add(PollingNode("asked", context=self.context))
         self.called: list[int] = []
         self.node.create_subscription(Int32, "called", lambda message: self.called.append(message.data), STREAM)
         self.polled: PolledSubscription[Int32] = self.node.create_polled_subscription(Int32, "polled", STREAM, depth=8)
-        self.peer = Node("peer", context=self.context)
         self.publishers = [self.peer.create_publisher(Int32, topic, STREAM) for topic in ("called", "polled")]
-        self.executor = make_executor(self.context)
-        self.executor.add_node(self.node)
         self.until(lambda: all(publisher.get_subscription_count() == 1 for publisher in self.publishers))
 
     def send(self, *numbers: int) -> None:
         for number in numbers:
             for publisher in self.publishers:
                 publisher.publish(Int32(data=number))
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            self.executor.spin_once(timeout_sec=0.02)
 
     def take_until(self, number: int) -> list[int]:
         taken: list[int] = []
@@ -58,22 +46,8 @@ class Pair:
         self.until(is_there)
         return taken
 
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        self.peer.destroy_node()
-        rclpy.try_shutdown(context=self.context)
 
-
-def _events(context: Context) -> Executor:
-    return EventsExecutor(context=context)
-
-
-def _single(context: Context) -> Executor:
-    return SingleThreadedExecutor(context=context)
-
-
-@pytest.fixture(params=[_single] if EventsExecutor is None else [_single, _events], ids=lambda make: make.__name__)
+@pytest.fixture(params=[one for one in (SingleThreadedExecutor, EventsExecutor) if one], ids=lambda one: one.__name__)
 def pair(request: pytest.FixtureRequest) -> Iterator[Pair]:
     made = Pair(request.param)
     yield made
@@ -100,7 +74,6 @@ def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:
 def test_a_service_is_answered_when_the_answer_is_known(pair: Pair) -> None:
     service = pair.node.create_polled_service(Trigger, "later")
     client = pair.peer.create_client(Trigger, "later")
-    pair.executor.add_node(pair.peer)
     pair.until(client.service_is_ready)
     assert service.take() is None
     answers = [client.call_async(Trigger.Request()) for _ in range(2)]

@@ -5,32 +5,24 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from peers import Peers
 from rclpy.node import Node
 from std_msgs.msg import Int32
 
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
 from acts_ros.publishers import SAME_NAME_S, OnlyPublishers
 
-DEADLINE_S = 30.0
 
-
-class Graph:
+class Graph(Peers):
     """A node that watches `/plate/touch`, and others that publish it."""
 
     def __init__(self) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=113)
-        self.watcher = Node("watcher", namespace="/plate", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.watcher)
+        super().__init__(113, "watcher", "/plate")
+        self.watcher = self.peer
         self.others: list[Node] = []
 
     def publish(self, name: str) -> Node:
@@ -40,21 +32,14 @@ class Graph:
         self.until(lambda: self.watcher.count_publishers("/plate/touch") == len(self.others))
         return other
 
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            self.executor.spin_once(timeout_sec=0.02)
-
 
 @pytest.fixture
 def graph() -> Iterator[Graph]:
     made = Graph()
     yield made
-    for node in [*made.others, made.watcher]:
+    for node in made.others:
         node.destroy_node()
-    made.executor.shutdown()
-    rclpy.try_shutdown(context=made.context)
+    made.close()
 
 
 def test_a_second_publisher_is_named_as_long_as_it_is_there(graph: Graph) -> None:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import os
-import socket
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -19,7 +18,8 @@ from typing import Any
 from dashboard_client import DashboardClient
 from rtde_control import RTDEControlInterface
 from rtde_receive import RTDEReceiveInterface
-from ur_process import HOOK_PORT, wait_for
+from ur_process import hook
+from waiting import wait_for
 
 from acts_core.robots import ur5e
 
@@ -29,12 +29,6 @@ LEVEL = list(ur5e.LEVEL_Q_RAD)
 def is_at(receive: RTDEReceiveInterface, q_rad: list[float]) -> Callable[[], bool]:
     """Whether an arm's joints are received as they are to be."""
     return lambda: receive.getActualQ() == q_rad
-
-
-def hook(host: str, line: str) -> str:
-    with socket.create_connection((host, HOOK_PORT), timeout=10.0) as connection:
-        connection.sendall(line.encode() + b"\n")
-        return connection.makefile("r").readline().strip()
 
 
 def servo(control: RTDEControlInterface, q: list[float], lookahead_s: float = 0.1) -> bool:

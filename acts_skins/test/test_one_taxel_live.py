@@ -8,18 +8,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-import rclpy
 from ament_index_python.packages import get_package_prefix
+from peers import Peers
 from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from acts_core.skin import ForceResponse
@@ -28,7 +23,6 @@ from acts_ros import qos
 
 pytestmark = pytest.mark.slow
 
-DEADLINE_S = 60.0
 ROW, COL = 8, 24
 TONE_HZ = 3000.0
 TONE_N = 0.1
@@ -61,45 +55,30 @@ def test_a_tone_of_3_khz_is_told_when_the_board_is_set_to_one_taxel(tmp_path: Pa
     processes = [
         subprocess.Popen(command, env=environment) for command in (board, [*skin, "--ros-args", "-r", "__ns:=/plate"])
     ]
-    context = Context()
-    rclpy.init(context=context, domain_id=30)
-    node = Node("listener", namespace="/plate", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-
-    def until(condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, "timed out"
-            executor.spin_once(timeout_sec=0.05)
-
-    contacts: list[Contact] = []
-    states: list[BoardState] = []
-    spectra: list[Spectrum] = []
-    node.create_subscription(Contact, "contact", contacts.append, qos.STREAM)
-    node.create_subscription(BoardState, "board", states.append, qos.LATCHED)
-    client = node.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
+    listener = Peers(domain_id=30, namespace="/plate")
+    listener.timeout_s = 60.0
+    contacts = listener.listen(Contact, "contact", qos.STREAM)
+    states = listener.listen(BoardState, "board", qos.LATCHED)
+    client = listener.peer.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
     try:
-        until(lambda: bool(contacts) and client.service_is_ready())
+        listener.until(lambda: bool(contacts) and client.service_is_ready())
         chosen = {"scheme": "fixed", "m": 50, "fixed_row": ROW, "fixed_col": COL, "fixed_taxels": 1}
         parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in chosen.items()]
         answer = client.call_async(SetParametersAtomically.Request(parameters=parameters))
-        until(answer.done)
+        listener.until(answer.done)
         assert answer.result().result.successful, answer.result().result.reason
-        until(lambda: states[-1].scheme == "fixed")
+        listener.until(lambda: states[-1].scheme == "fixed")
         assert (states[-1].fixed_row, states[-1].fixed_col, states[-1].fixed_taxels) == (ROW, COL, 1)
-        node.create_subscription(Spectrum, "spectra", spectra.append, qos.STREAM)
+        spectra = listener.listen(Spectrum, "spectra", qos.STREAM)
         # On a busy machine frames are lost, and the first stamps jump while the board's clock is learnt.
-        until(lambda: any(is_the_tone(one) for one in spectra))
+        listener.until(lambda: any(is_the_tone(one) for one in spectra))
         told = next(one for one in spectra if is_the_tone(one))
         assert told.sample_rate > 40_000
         assert (told.contacts, told.taxels) == (1, 1)
         assert told.step * (len(told.amplitude) - 1) > 20_000
         assert contacts[-1].in_contact
     finally:
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown(context=context)
+        listener.close()
         for process in processes:
             process.kill()
             process.wait()

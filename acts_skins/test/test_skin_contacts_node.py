@@ -11,19 +11,15 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_msgs.msg import Contact, Contacts, SkinContacts, SkinState, TrackedContact
@@ -44,28 +40,21 @@ skins:
 """
 
 
-class Robot:
+class Robot(Peers):
     """Plays the skins, and hears what the program says."""
 
+    timeout_s = DEADLINE_S
+    turn_s = 0.005
+
     def __init__(self, domain_id: int) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain_id)
-        self.node = Node("robot", context=self._context)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
-        self.merged: list[SkinContacts] = []
-        self.node.create_subscription(SkinContacts, "skin_contacts", self.merged.append, qos.STREAM)
+        super().__init__(domain_id, "robot")
+        self.merged = self.listen(SkinContacts, "skin_contacts", qos.STREAM)
         self._skins: dict[str, Any] = {}
 
     def skin(self, name: str, kind: type = Contacts) -> Any:
         topic = "contacts" if kind is Contacts else "contact"
-        self._skins[name] = self.node.create_publisher(kind, f"{name}/{topic}", qos.STREAM)
+        self._skins[name] = self.peer.create_publisher(kind, f"{name}/{topic}", qos.STREAM)
         return self._skins[name]
-
-    def listen(self, kind: type, topic: str, profile: Any) -> list[Any]:
-        messages: list[Any] = []
-        self.node.create_subscription(kind, topic, messages.append, profile)
-        return messages
 
     def press(self, name: str, *forces_n: float, ahead_s: float = 0.0, frame_id: str = "") -> None:
         """Send the contacts of a skin as of now, each a centimetre further along x."""
@@ -88,21 +77,12 @@ class Robot:
         self._skins[name].publish(message)
 
     def _head(self, message: Any, name: str, ahead_s: float, frame_id: str) -> None:
-        stamp_ns = self.node.get_clock().now().nanoseconds + round(ahead_s * 1e9)
+        stamp_ns = self.peer.get_clock().now().nanoseconds + round(ahead_s * 1e9)
         message.header.frame_id = frame_id or name
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, 10**9)
 
-    def until(self, condition: Callable[[], bool], meanwhile: Callable[[], Any] = lambda: None) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, self.merged[-1:]
-            meanwhile()
-            self._executor.spin_once(timeout_sec=0.005)
-
-    def close(self) -> None:
-        self._executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown(context=self._context)
+    def situation(self) -> object:
+        return self.merged[-1:]
 
 
 @pytest.fixture
@@ -202,7 +182,7 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
     reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
 
     def send(rest: bytes) -> None:
-        robot.send("left", header_bytes(robot.node.get_clock().now().nanoseconds, "left") + rest)
+        robot.send("left", header_bytes(robot.peer.get_clock().now().nanoseconds, "left") + rest)
 
     def told(words: str) -> bool:
         return any(words in status.message for array in reports for status in array.status)
@@ -258,7 +238,7 @@ def test_another_base_all_that_presses_as_one_and_a_thousand_times_a_second(robo
 
 @pytest.mark.parametrize("robot", [166], indirect=True)
 def test_poses_are_kept_for_late_joiners_and_the_aggregate_names_the_skin(robot: Robot, tmp_path: Path) -> None:
-    publisher = robot.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    publisher = robot.peer.create_publisher(DiagnosticArray, "/diagnostics", 10)
 
     def report() -> None:
         for skin, level, message in (

@@ -19,10 +19,8 @@ from typing import Any
 
 import psutil
 import pytest
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
+from waiting import pause, wait_for
 
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_msgs.msg import Contact
@@ -67,11 +65,8 @@ class Skins:
         pids = re.findall(rf"\[{label}\]: process started with pid \[(\d+)\]", self.output)
         return psutil.Process(int(pids[-1]))
 
-    def until(self, condition: Callable[[], bool], step: Callable[[], Any] = lambda: time.sleep(0.02)) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, self.output
-            step()
+    def until(self, condition: Callable[[], bool], step: Callable[[], Any] = pause) -> None:
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=step, state=lambda: self.output)
 
 
 @contextmanager
@@ -97,26 +92,12 @@ def running(folder: Path, path: Path, domain_id: int, *words: str) -> Iterator[S
                     process.kill()
 
 
-class Listener:
+class Listener(Peers):
     """Counts the contacts of skins."""
 
     def __init__(self, domain_id: int, *topics: str) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.node = Node("listener", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-        self.messages: dict[str, list[Contact]] = {topic: [] for topic in topics}
-        for topic, messages in self.messages.items():
-            self.node.create_subscription(Contact, topic, messages.append, qos.STREAM)
-
-    def step(self) -> None:
-        self.executor.spin_once(timeout_sec=0.05)
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
+        super().__init__(domain_id)
+        self.messages = {topic: self.listen(Contact, topic, qos.STREAM) for topic in topics}
 
 
 @pytest.fixture
@@ -130,14 +111,14 @@ def listener(request: pytest.FixtureRequest) -> Iterator[Listener]:
 def test_a_skin_that_is_killed_comes_again_and_the_other_notices_nothing(listener: Listener, tmp_path: Path) -> None:
     left, right = listener.messages.values()
     with running(tmp_path, skins_yaml(tmp_path), 160, "--ros-args", "-r", "__ns:=/robot") as skins:
-        skins.until(lambda: len(left) > 100 and len(right) > 100, listener.step)
+        skins.until(lambda: len(left) > 100 and len(right) > 100, listener.turn)
         assert {left[-1].header.frame_id, right[-1].header.frame_id} == {"left", "right"}
         other = skins.child("right/tactile")
         skins.child("left/tactile").kill()
-        skins.until(lambda: "[left/tactile]: process has died" in skins.output, listener.step)
+        skins.until(lambda: "[left/tactile]: process has died" in skins.output, listener.turn)
         # Contacts of before may still wait for this test.
         died_ns = time.time_ns()
-        skins.until(lambda: len(left) > 0 and stamp_ns(left[-1]) > died_ns, listener.step)
+        skins.until(lambda: len(left) > 0 and stamp_ns(left[-1]) > died_ns, listener.turn)
         assert sum(stamp_ns(contact) > died_ns for contact in right) > 100
         assert other.is_running()
         children = psutil.Process(skins.process.pid).children(recursive=True)
@@ -154,7 +135,7 @@ def test_a_skin_that_is_killed_comes_again_and_the_other_notices_nothing(listene
 @pytest.mark.parametrize("listener", [(161, "/left/contact")], indirect=True)
 def test_nothing_is_left_when_the_program_is_killed(listener: Listener, tmp_path: Path) -> None:
     with running(tmp_path, skins_yaml(tmp_path), 161) as skins:
-        skins.until(lambda: bool(listener.messages["/left/contact"]), listener.step)
+        skins.until(lambda: bool(listener.messages["/left/contact"]), listener.turn)
         children = psutil.Process(skins.process.pid).children(recursive=True)
         assert children
         skins.process.kill()

@@ -9,20 +9,17 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
+from pressed_frames import disc_recording
+from waiting import wait_for
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import REFUSED_EXIT_CODE
@@ -49,15 +46,12 @@ def running(*command: str, domain_id: int) -> Iterator[subprocess.Popen[str]]:
 @contextmanager
 def pressed_board(folder: Path, domain_id: int) -> Iterator[Path]:
     """A board that sees a disc of 21 taxels around row 8, column 24."""
-    rows, cols = np.mgrid[:32, :32]
-    disc = np.where(np.hypot(rows - 8, cols - 24) < 2.6, 700, 0).astype(np.uint16)
-    np.save(folder / "disc.npy", np.repeat(disc[np.newaxis], 4, axis=0))
     link = folder / "board"
     words = [
         "--link",
         str(link),
         "--recording",
-        str(folder / "disc.npy"),
+        str(disc_recording(folder)),
         "--loop",
         "--scheme",
         "tracking",
@@ -66,44 +60,19 @@ def pressed_board(folder: Path, domain_id: int) -> Iterator[Path]:
     ]
     program = f"{get_package_prefix('acts_firmware')}/lib/acts_firmware/virtual_board"
     with running(program, *words, domain_id=domain_id):
-        wait_until(lambda: os.path.lexists(link))
+        wait_for(lambda: os.path.lexists(link), "the board")
         yield link
 
 
-def wait_until(condition: Callable[[], bool], step: Callable[[], None] = lambda: time.sleep(0.01)) -> None:
-    deadline_s = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < deadline_s, "timed out"
-        step()
-
-
-class Listener:
+class Listener(Peers):
     """What comes out of the process."""
 
-    def __init__(self, domain_id: int) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.node = Node("listener", namespace="/plate", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-
-    def listen(self, kind: type, topic: str, profile: Any) -> list[Any]:
-        messages: list[Any] = []
-        self.node.create_subscription(kind, topic, messages.append, profile)
-        return messages
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        wait_until(condition, lambda: self.executor.spin_once(timeout_sec=0.05))
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
+    timeout_s = DEADLINE_S
 
 
 @pytest.fixture
 def listener(request: pytest.FixtureRequest) -> Iterator[Listener]:
-    made = Listener(request.param)
+    made = Listener(request.param, namespace="/plate")
     yield made
     made.close()
 

@@ -10,11 +10,13 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from rclpy.serialization import serialize_message
 from test_view_codec import decode
+from waiting import wait_for
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -35,13 +37,6 @@ pytestmark = pytest.mark.slow
 
 DEADLINE_S = 30.0
 ROW, COL = 10, 20
-
-
-def until(condition: Callable[[], bool]) -> None:
-    deadline_s = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < deadline_s
-        time.sleep(0.002)
 
 
 def write_frames(path: Path, count: int = 4, rate_hz: float = 2.0) -> Path:
@@ -87,32 +82,32 @@ def played() -> Iterator[Played]:
 
 
 def test_a_recording_is_played_whole_at_its_pace_over_its_gaps_and_then_again(played: Played) -> None:
-    until(lambda: not played.playback.state.is_playing)
+    wait_for(lambda: not played.playback.state.is_playing)
     assert time.monotonic() - played.began_s > 1.49
     assert played.numbers == list(range(1000))
     assert played.playback.state.position_s == pytest.approx(1.499)
     played.playback.play()
-    until(lambda: len(played.numbers) > 1003)
+    wait_for(lambda: len(played.numbers) > 1003)
     assert played.numbers[1000:1003] == [0, 1, 2]
     assert played.jumps == [0, 1000]
 
 
 def test_a_held_recording_shows_where_one_goes_and_goes_on_from_there(played: Played) -> None:
     playback = played.playback
-    until(lambda: bool(played.numbers))
+    wait_for(lambda: bool(played.numbers))
     playback.pause()
-    until(lambda: not playback.state.is_playing)
+    wait_for(lambda: not playback.state.is_playing)
     playback.seek(1.2)
-    until(lambda: played.numbers[-1] == 700)
+    wait_for(lambda: played.numbers[-1] == 700)
     assert playback.state.position_s == pytest.approx(1.2)
     seen = len(played.numbers)
     playback.play()
-    until(lambda: len(played.numbers) > seen)
+    wait_for(lambda: len(played.numbers) > seen)
     assert played.numbers[seen] == 701
     playback.seek(1e9)
-    until(lambda: not playback.state.is_playing)
+    wait_for(lambda: not playback.state.is_playing)
     playback.seek(-5.0)
-    until(lambda: played.numbers[-1] == 0)
+    wait_for(lambda: played.numbers[-1] == 0)
 
 
 class ClockSet(Counted):
@@ -132,14 +127,14 @@ def test_a_recording_is_played_and_sought_beyond_a_time_at_which_its_clock_was_s
     playback = played.playback
     playback.start()
     try:
-        until(lambda: not playback.state.is_playing)
+        wait_for(lambda: not playback.state.is_playing)
         assert played.numbers == list(range(1000))
         # It is held at its end. How long the step was at which the clock was set nobody knows.
         for time_s, number in ((1.2, 700), (0.05, 50), (1.4, 900)):
             playback.seek(time_s)
-            until(lambda number=number: number <= played.numbers[-1] <= number + 1)  # type: ignore[misc]
+            wait_for(lambda number=number: number <= played.numbers[-1] <= number + 1)  # type: ignore[misc]
         playback.play()
-        until(lambda: not playback.state.is_playing)
+        wait_for(lambda: not playback.state.is_playing)
         assert played.numbers[-98:] == list(range(902, 1000))
     finally:
         playback.stop()
@@ -166,7 +161,7 @@ def test_a_recording_that_is_read_slower_than_it_plays_is_shown_as_it_is_read(mo
         Slow(), lambda frames: handed_on.append((late_us, [one.sequence for one in frames])), lambda: None
     )
     playback.start()
-    until(lambda: not playback.state.is_playing)
+    wait_for(lambda: not playback.state.is_playing)
     playback.stop()
     assert [number for _, numbers in handed_on for number in numbers] == list(range(1000))
     # Never without a picture for as long as half a second, of the four that it takes.
@@ -347,7 +342,7 @@ class Shown:
             kwargs={"host": "127.0.0.1", "port": 0, "signals": self._signals, "on_address": self.addresses.append},
         )
         self._thread.start()
-        until(lambda: bool(self.addresses))
+        wait_for(lambda: bool(self.addresses))
 
     @property
     def url(self) -> str:
@@ -384,16 +379,23 @@ def test_a_page_holds_a_recording_and_others_see_it(tmp_path: Path) -> None:
         with shown.connect() as client:
             client.send('{"id":5,"do":"pause"}')
             client.send('{"id":6,"do":"grasp"}')
-            seen: dict[str, object] = {}
+            seen: dict[str, Any] = {}
             answers: dict[int, tuple[bool, str]] = {}
-            deadline_s = time.monotonic() + DEADLINE_S
-            while not (seen.get("replay", {}).get("playing") is False and len(answers) == 2):  # type: ignore[attr-defined]
-                assert time.monotonic() < deadline_s, (seen, answers)
+
+            def read() -> None:
                 header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
                 if header["type"] == "answer":
                     answers[header["id"]] = (header["done"], header["text"])
                 elif header["type"] == "status":
-                    seen = header
+                    seen.clear()
+                    seen.update(header)
+
+            wait_for(
+                lambda: seen.get("replay", {}).get("playing") is False and len(answers) == 2,
+                timeout_s=DEADLINE_S,
+                meanwhile=read,
+                state=lambda: (seen, answers),
+            )
             assert answers[5] == (True, "")
             assert answers[6][0] is False
             assert seen["skins"] == ["/press"]

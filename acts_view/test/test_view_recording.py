@@ -20,8 +20,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from spinning import Spinning
-from test_view_codec import decode
 from view_browser import expect, needs_browser
+from view_node_bench import header_where
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
@@ -105,12 +105,7 @@ class Asker:
         self.until(lambda header: header["type"] == "status" and header["skins"] == ["/plate"])
 
     def until(self, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while time.monotonic() < deadline_s:
-            header, _ = decode(self._client.recv(DEADLINE_S))  # type: ignore[arg-type]
-            if condition(header):
-                return header
-        raise AssertionError("it was not told")
+        return header_where(self._client, condition)
 
     def ask(self, what: str) -> tuple[bool, str]:
         self._number += 1

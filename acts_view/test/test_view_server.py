@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import pytest
 from test_view_codec import decode
+from waiting import wait_for
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
@@ -67,11 +68,11 @@ class Bench:
         self.server.show_frame("/plate", Frame(stamp_s=sample.stamp_s, image=image), [sample])
 
     def until(self, condition: Callable[[], bool], meanwhile: Callable[[], object] = lambda: None) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s
+        def turn() -> None:
             meanwhile()
             time.sleep(0.001)
+
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=turn)
 
 
 @pytest.fixture

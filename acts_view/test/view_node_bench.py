@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -18,6 +17,7 @@ from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from spinning import Spinning
 from test_view_codec import decode
+from waiting import text_of, wait_for
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -29,6 +29,16 @@ from acts_view.nodes.view_node import ViewNode
 DEADLINE_S = 30.0
 SHAPE = {"layout": "leap_right", "rows": 32, "cols": 32, "pitch_m": 0.0, "row_pitch_m": 0.0, "touch_counts": 50}
 SHAPE |= {"force_full_scale_counts": 1000.0, "force_dead_n": 0.01, "force_half_n": 0.5, "force_response": ""}
+
+
+def header_where(client: ClientConnection, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+    """What the first message to a page that fulfils a condition says of itself."""
+
+    def next_one() -> dict[str, Any] | None:
+        header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+        return header if condition(header) else None
+
+    return wait_for(next_one, lambda: text_of(condition), DEADLINE_S, meanwhile=lambda: None)
 
 
 class Bench:
@@ -67,17 +77,15 @@ class Bench:
     def destroy(self, publishers: list[Publisher]) -> None:
         # By the thread that spins: the executor may not meet one that is being destroyed.
         task = self._spinning.executor.create_task(lambda: [self.skin.destroy_publisher(one) for one in publishers])
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not task.done():
-            assert time.monotonic() < deadline_s
+        wait_for(task.done, "the executor", DEADLINE_S)
         task.result()
 
     def until(self, condition: Callable[[], bool], client: ClientConnection, meanwhile: Callable[[], Any]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, (self.headers, self.arrays)
+        def turn() -> None:
             meanwhile()
             self.read(client)
+
+        wait_for(condition, timeout_s=DEADLINE_S, meanwhile=turn, state=lambda: (self.headers, self.arrays))
 
     def read(self, client: ClientConnection) -> None:
         patience_s = 0.02
@@ -92,12 +100,6 @@ class Bench:
             if header["type"] == "frame":
                 self.arrays = arrays
                 self.history.append(arrays["history"])
-
-    def spin_until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s
-            time.sleep(0.002)
 
     def close(self) -> None:
         self._spinning.end()

@@ -6,12 +6,12 @@
 import os
 import shutil
 import subprocess
-import time
 from pathlib import Path
 from signal import SIGINT
 
 import pytest
 from ament_index_python.packages import get_package_prefix
+from waiting import wait_for
 
 pytestmark = pytest.mark.slow
 
@@ -29,9 +29,8 @@ PROGRAMS = [
 
 def wait_for_python(process: subprocess.Popen[str]) -> None:
     """Until `env` has become Python, whose own handlers are not there yet, or have just been made."""
-    deadline_s = time.monotonic() + DEADLINE_S
-    while "python" not in Path(f"/proc/{process.pid}/exe").resolve().name:
-        assert time.monotonic() < deadline_s
+    path = Path(f"/proc/{process.pid}/exe")
+    wait_for(lambda: "python" in path.resolve().name, "Python", DEADLINE_S, meanwhile=lambda: None)
 
 
 @pytest.mark.parametrize(("package", "name"), PROGRAMS)

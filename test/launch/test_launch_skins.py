@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
-from launch_support import PACKAGE, START_S, disc_recording, pid_of
+from launch_support import PACKAGE, START_S, pid_of
+from pressed_frames import disc_recording
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import SkinContacts, SkinState

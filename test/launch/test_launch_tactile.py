@@ -14,7 +14,8 @@ import pytest
 from ament_index_python.packages import get_package_share_directory
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
-from launch_support import LONG_S, PACKAGE, START_S, disc_recording
+from launch_support import LONG_S, PACKAGE, START_S
+from pressed_frames import disc_recording
 from sensor_msgs.msg import Image
 
 from acts_core.array import ArrayGeometry

@@ -8,12 +8,12 @@ from __future__ import annotations
 import os
 import subprocess
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from waiting import pause, wait_for
 
 from acts_ros.processes.packages import executable
 
@@ -34,11 +34,11 @@ class Child:
         self.log = log
 
     def until(self, condition: Callable[[], bool], what: str) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s, f"waited for {what}: {self.log.read_text()}"
+        def turn() -> None:
             assert self.process.poll() is None, self.log.read_text()
-            time.sleep(0.01)
+            pause()
+
+        wait_for(condition, what, DEADLINE_S, turn, self.log.read_text)
 
     def until_told(self, words: str) -> None:
         self.until(lambda: words in self.log.read_text(), words)

@@ -19,6 +19,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
+from waiting import wait_for
 
 from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
@@ -127,14 +128,15 @@ class Bench:
         others = {"reconstruction", *KEEP_THE_SYSTEMS_CLOCK}
         needed = {"merged", "samples", "skin_contacts", "skin_diagnostics", *(f"plate/{name}" for name in others)}
         self.heard.clear()
-        end_s = time.monotonic() + DEADLINE_S
-        while not needed <= self.heard:
-            assert time.monotonic() < end_s, f"nothing heard of {sorted(needed - self.heard)}"
+
+        def turn() -> None:
             if time_s is not None:
                 message = Clock()
                 message.clock.sec = round(time_s)
                 self.clock.publish(message)
             spin_for(self._executor, 0.05)
+
+        wait_for(lambda: needed <= self.heard, lambda: str(sorted(needed - self.heard)), DEADLINE_S, turn)
 
     def close(self) -> None:
         for node in self.nodes.values():

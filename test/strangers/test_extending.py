@@ -22,6 +22,7 @@ from hypothesis import strategies as st
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from waiting import wait_for
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
@@ -267,9 +268,8 @@ class Bench:
 
     def until(self, condition: Callable[[], bool], force_n: float | None = None, age_s: float = 0.0) -> None:
         """Go on until something is the case, with a contact each round where there is a force."""
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, f"timed out; the last speed is {self.speed()}"
+
+        def turn() -> None:
             if force_n is not None:
                 sec, nanosec = divmod(time.time_ns() - int(age_s * 1e9), 1_000_000_000)
                 contact = Contact(in_contact=True, force=force_n)
@@ -277,6 +277,8 @@ class Bench:
                 contact.header.stamp.sec, contact.header.stamp.nanosec = sec, nanosec
                 self.publisher.publish(contact)
             self.executor.spin_once(timeout_sec=0.01)
+
+        wait_for(condition, "", DEADLINE_S, turn, lambda: f"the last speed is {self.speed()}")
 
     def speed(self) -> float:
         """The last speed that was heard [m/s]."""

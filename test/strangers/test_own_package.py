@@ -15,11 +15,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rclpy
 from geometry_msgs.msg import PointStamped
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
 
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame, Scheme
@@ -95,30 +92,24 @@ def test_its_node_recovers_frames_and_ends_in_order(workspace: Path) -> None:
     program = workspace / "install" / "my_touch" / "lib" / "my_touch" / "force"
     source = f"source {workspace}/install/setup.bash && exec {program}"
     process = subprocess.Popen(["bash", "-c", source], env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN_ID)})
-    context = Context()
-    rclpy.init(context=context, domain_id=DOMAIN_ID)
-    executor = SingleThreadedExecutor(context=context)
-    node = Node("skin", context=context)
-    executor.add_node(node)
-    heard: list[PointStamped] = []
+    peers = Peers(DOMAIN_ID, "skin")
+    peers.timeout_s = DEADLINE_S
+    heard = peers.listen(PointStamped, "pressed", STATE)
     try:
         message = SamplesMessage("left")
-        publisher = node.create_publisher(TactileSamples, "samples", STREAM)
-        node.create_subscription(PointStamped, "pressed", heard.append, STATE)
-        end_s = time.monotonic() + DEADLINE_S
-        while not heard:
-            assert time.monotonic() < end_s
+        publisher = peers.peer.create_publisher(TactileSamples, "samples", STREAM)
+
+        def publish() -> None:
             assert process.poll() is None
             publisher.publish(message.fill(frame, time.time_ns()))
-            executor.spin_once(timeout_sec=0.05)
+
+        peers.until(lambda: heard, publish)
         process.send_signal(signal.SIGINT)
         assert process.wait(DEADLINE_S) == 0
     finally:
         process.kill()
         process.wait()
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown(context=context)
+        peers.close()
     geometry, point = ArrayGeometry(), heard[0].point
     assert heard[0].header.frame_id == "left"
     assert (point.x, point.y) == pytest.approx((float(geometry.x_m(20)), float(geometry.y_m(9))), abs=1e-3)

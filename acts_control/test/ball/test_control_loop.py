@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from arm_in_process import DEADLINE_S, ArmInProcess, wait_for
+from arm_in_process import DEADLINE_S, ArmInProcess
+from waiting import wait_for
 
 from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.ball.controller import BallController

@@ -13,9 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from control_rig import Bench, Process, node_command, wait_for
+from child_process import Process
+from control_rig import Bench, node_command
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Vector3Stamped
+from waiting import wait_for
 
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode

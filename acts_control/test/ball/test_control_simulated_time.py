@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 import pytest
 import rclpy
-from arm_in_process import ArmInProcess, wait_for
+from arm_in_process import ArmInProcess
 from geometry_msgs.msg import Vector3
 from rclpy.context import Context
+from waiting import wait_for
 
 from acts_control.ball import Phase
 from acts_control.ball.nodes.ball_control_node import BallControlNode

@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus
 from hand_loop_rig import STALE_S, Made, MadeBus, Running
+from waiting import wait_for
 
 from acts_control.hand.control import HandLoop, HandLoopConfig
 from acts_control.hand.description import LEAP_RIGHT
@@ -39,10 +39,7 @@ def made() -> Iterator[Made]:
     loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
 
     def until(condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < end_s, loop.status
-            time.sleep(0.005)
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: loop.status)
 
     loop.launch()
     yield bus, loop, until

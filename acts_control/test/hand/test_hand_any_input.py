@@ -8,7 +8,6 @@ ROS_DOMAIN_ID 226.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import Any, NamedTuple
@@ -22,6 +21,7 @@ from hypothesis import strategies as st
 from rclpy.context import Context
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
+from waiting import wait_for
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase, HandSupervisor
 from acts_control.hand.description import LEAP_RIGHT
@@ -254,10 +254,8 @@ class Commanded(NamedTuple):
     bus: Bus
 
     def wait_for_cycles(self, count: int) -> None:
-        end_s, cycles = time.monotonic() + 30.0, self.loop.status.cycles + count
-        while self.loop.status.cycles < cycles:
-            assert time.monotonic() < end_s, self.loop.status
-            time.sleep(0.001)
+        cycles = self.loop.status.cycles + count
+        wait_for(lambda: self.loop.status.cycles >= cycles, f"{count} cycles", state=lambda: self.loop.status)
 
 
 CONFIG = HandLoopConfig(rate_hz=500.0, max_speed_rad_s=8.0)

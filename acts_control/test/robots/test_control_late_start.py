@@ -7,8 +7,10 @@ import signal
 import time
 
 import pytest
-from control_rig import Bench, Process, SimulatedRobot, node_command, wait_for
+from child_process import Process
+from control_rig import Bench, SimulatedRobot, node_command
 from std_srvs.srv import Trigger
+from waiting import wait_for
 
 from acts_msgs.msg import BalanceStatus
 

@@ -15,7 +15,8 @@ from contextlib import ExitStack, closing
 
 import pytest
 from balancing_rig import Rig
-from control_rig import SimulatedRobot, wait_for
+from control_rig import SimulatedRobot
+from waiting import wait_for
 
 import acts_control.robots.ur.robot
 from acts_control.ball import Phase

@@ -14,7 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
+from child_process import Process
+from control_rig import Bench, RollingBall, SimulatedRobot, node_command
+from waiting import wait_for
 
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus

@@ -22,8 +22,10 @@ from typing import Any
 
 import pytest
 from balancing_rig import HELD_UP_S, Rig
-from control_rig import Bench, Process, RollingBall, SimulatedRobot, node_command, wait_for
+from child_process import Process
+from control_rig import Bench, RollingBall, SimulatedRobot, node_command
 from diagnostic_msgs.msg import DiagnosticArray
+from waiting import wait_for
 
 import acts_control.robots.ur.robot
 from acts_control.ball import Phase

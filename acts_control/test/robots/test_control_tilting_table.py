@@ -9,7 +9,6 @@ Time is that of the simulation: nothing waits, and every run is the same.
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable
 from math import hypot, isfinite
 from pathlib import Path
@@ -20,6 +19,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 from tilting_table import LEVER_ARM_M, SimulatedTable
+from waiting import wait_for
 
 from acts_control.ball import (
     Ball,
@@ -92,10 +92,11 @@ class Run:
         )
         self.loop.look = self._look
         self.loop.launch()
-        deadline_s = time.monotonic() + DEADLINE_S
-        while table.time_s == 0.0 or self.loop.status.phase is not Phase.STOPPED:
-            assert time.monotonic() < deadline_s, self.loop.status
-            time.sleep(0.002)
+        wait_for(
+            lambda: table.time_s > 0.0 and self.loop.status.phase is Phase.STOPPED,
+            timeout_s=DEADLINE_S,
+            state=lambda: self.loop.status,
+        )
         self.status: LoopStatus = self.loop.status
         self.loop.close()
 

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from published_spacing import PUBLISHED_SPACING
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEMES, Sampler, SamplingConfig, SkinMap, measure_in
@@ -16,31 +17,6 @@ from acts_core.sampling.basis import Pcg32, division_order
 from acts_core.sampling.schemes.adaptive import adaptive
 from acts_core.sampling.schemes.random_taxels import RandomTaxels
 from acts_core.sampling.schemes.uniform import uniform, uniform_spacing
-
-# M and spacing (rows, columns) of the authors' firmware on 32 x 32.
-PUBLISHED_SPACING = {
-    36: (6, 6),
-    42: (6, 5),
-    48: (6, 4),
-    49: (5, 5),
-    56: (5, 4),
-    64: (4, 4),
-    66: (6, 3),
-    77: (5, 3),
-    88: (4, 3),
-    96: (6, 2),
-    112: (5, 2),
-    121: (3, 3),
-    128: (4, 2),
-    160: (7, 1),
-    176: (3, 2),
-    192: (6, 1),
-    224: (5, 1),
-    256: (2, 2),
-    352: (3, 1),
-    512: (2, 1),
-    1024: (1, 1),
-}
 
 
 def arrays(path: Path) -> dict[str, NDArray]:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sample_frames import frames
 
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
@@ -24,24 +25,6 @@ from acts_core.wire.samples import PACKET_SIZE_MAX, sample_fault
 pytestmark = pytest.mark.slow
 
 GARBAGE = st.binary(max_size=300)
-
-
-@st.composite
-def frames(draw: st.DrawFn) -> SampleFrame:
-    rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
-    m = draw(st.integers(1, min(rows * cols, 80)))
-    random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    return SampleFrame(
-        sequence=draw(st.integers(0, 2**32 - 1)),
-        board_us=draw(st.integers(0, 2**64 - 1)),
-        duration_us=draw(st.integers(0, 2**32 - 1)),
-        scheme=draw(st.sampled_from(Scheme)),
-        rows=rows,
-        cols=cols,
-        overruns=draw(st.integers(0, 2**32 - 1)),
-        indices=random.permutation(rows * cols)[:m].astype(np.uint16),
-        counts=random.integers(0, 1024, m).astype(np.uint16),
-    )
 
 
 def example(sequence: int = 7, m: int = 3) -> SampleFrame:
@@ -123,21 +106,21 @@ def test_the_largest_frame_fits() -> None:
     assert all_same(StreamDecoder().feed(encoded), [frame])
 
 
-@given(st.lists(frames(), max_size=4))
+@given(st.lists(frames(80), max_size=4))
 def test_round_trip(sent: list[SampleFrame]) -> None:
     decoder = StreamDecoder()
     assert all_same(decoder.feed(b"".join(map(encode_frame, sent))), sent)
     assert (decoder.frames, rejected(decoder), decoder.bytes_discarded) == (len(sent), 0, 0)
 
 
-@given(st.lists(st.tuples(GARBAGE, frames()), max_size=4), GARBAGE)
+@given(st.lists(st.tuples(GARBAGE, frames(80)), max_size=4), GARBAGE)
 def test_garbage_before_and_between_is_dropped(sent: list[tuple[bytes, SampleFrame]], end: bytes) -> None:
     decoder = StreamDecoder()
     stream = b"".join(garbage + b"\x00" + encode_frame(frame) for garbage, frame in sent) + end
     assert all_same(decoder.feed(stream), [frame for _, frame in sent])
 
 
-@given(GARBAGE, st.lists(frames(), min_size=1, max_size=3))
+@given(GARBAGE, st.lists(frames(80), min_size=1, max_size=3))
 def test_after_garbage_without_a_delimiter_at_most_one_frame_is_lost(garbage: bytes, sent: list[SampleFrame]) -> None:
     decoder = StreamDecoder()
     received = decoder.feed(garbage + b"".join(map(encode_frame, sent)))
@@ -147,7 +130,7 @@ def test_after_garbage_without_a_delimiter_at_most_one_frame_is_lost(garbage: by
         assert decoder.bytes_discarded >= 1
 
 
-@given(st.lists(frames(), min_size=1, max_size=3), st.lists(st.integers(0, 1200), max_size=12))
+@given(st.lists(frames(80), min_size=1, max_size=3), st.lists(st.integers(0, 1200), max_size=12))
 def test_any_split_into_chunks_gives_the_same_frames(sent: list[SampleFrame], cuts: list[int]) -> None:
     stream = b"garbage\x00" + b"".join(map(encode_frame, sent))
     decoder = StreamDecoder()
@@ -158,7 +141,7 @@ def test_any_split_into_chunks_gives_the_same_frames(sent: list[SampleFrame], cu
     assert decoder.bytes_discarded == len("garbage")
 
 
-@given(frames())
+@given(frames(80))
 @settings(max_examples=20)
 def test_byte_by_byte(sent: SampleFrame) -> None:
     decoder = StreamDecoder()
@@ -166,7 +149,7 @@ def test_byte_by_byte(sent: SampleFrame) -> None:
     assert all_same(received, [sent, sent])
 
 
-@given(st.lists(frames(), min_size=2, max_size=3), st.sets(st.integers(0, 2**14), min_size=1, max_size=20))
+@given(st.lists(frames(80), min_size=2, max_size=3), st.sets(st.integers(0, 2**14), min_size=1, max_size=20))
 def test_flipped_bits_never_yield_a_wrong_frame(sent: list[SampleFrame], bits: set[int]) -> None:
     stream = bytearray(b"".join(map(encode_frame, sent)))
     flipped = {bit % (8 * len(stream)) for bit in bits}
@@ -181,7 +164,7 @@ def test_flipped_bits_never_yield_a_wrong_frame(sent: list[SampleFrame], bits: s
     assert all_same(decoder.feed(encode_frame(sent[0])), [sent[0]])
 
 
-@given(frames(), frames(), st.data())
+@given(frames(80), frames(80), st.data())
 def test_a_truncated_frame_is_lost_alone(first: SampleFrame, second: SampleFrame, data: st.DataObject) -> None:
     encoded = encode_frame(first)
     kept = data.draw(st.integers(1, len(encoded) - 2))
@@ -193,7 +176,7 @@ def test_a_truncated_frame_is_lost_alone(first: SampleFrame, second: SampleFrame
     assert rejected(decoder) == 2
 
 
-@given(frames(), st.randoms(use_true_random=False))
+@given(frames(80), st.randoms(use_true_random=False))
 def test_reordered_bytes_never_yield_a_wrong_frame(sent: SampleFrame, random: object) -> None:
     encoded = list(encode_frame(sent)[:-1])
     random.shuffle(encoded)  # type: ignore[attr-defined]

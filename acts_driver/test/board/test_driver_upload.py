@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from driver_rig import Rig
 from lifecycle_msgs.msg import Transition
-from pty_board import wait_for
 from virtual_board import VirtualBoard
+from waiting import wait_for
 
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_driver.board import BoardStatus
@@ -153,6 +153,6 @@ def test_the_driver_ends_during_an_upload(tmp_path: Path, rig: Rig) -> None:
         session = driver.intake.session if driver.intake is not None else None
         assert session is not None
         assert rig.change_state(Transition.TRANSITION_ACTIVE_SHUTDOWN)
-        wait_for(lambda: not session._thread.is_alive(), "the end of the upload", deadline_s=2.0)
+        wait_for(lambda: not session._thread.is_alive(), "the end of the upload", timeout_s=2.0)
         assert session.status.state is not None
         assert session.status.state.model.kind is ModelKind.NONE

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from driver_rig import Rig
+from pressed_frames import press
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Image
 from virtual_board import VirtualBoard
@@ -25,11 +26,6 @@ from acts_recon.sparse import Dictionary, Reconstructor, load_dictionary, save_d
 pytestmark = pytest.mark.slow
 
 DEEP = QoSProfile(depth=20_000, reliability=ReliabilityPolicy.BEST_EFFORT)
-
-
-def press(row: float, col: float, width: float = 2.5) -> np.ndarray:
-    r, c = np.indices((32, 32))
-    return np.rint(800 * np.exp(-((r - row) ** 2 + (c - col) ** 2) / (2 * width**2))).astype(np.uint16)
 
 
 @pytest.fixture

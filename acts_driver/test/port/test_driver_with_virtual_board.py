@@ -5,15 +5,15 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from driver_rig import DEADLINE_S, Rig, end_process, intake_of, start_process
+from driver_rig import Rig, end_process, intake_of, start_process
 from lifecycle_msgs.msg import Transition
 from virtual_board import VirtualBoard
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import RasterDecoder
@@ -93,10 +93,7 @@ def test_the_virtual_boards_raster_text(tmp_path: Path) -> None:
     try:
         source.open()
         frames: list[SampleFrame] = []
-        deadline_s = time.monotonic() + DEADLINE_S
-        while len(frames) < 5:
-            assert time.monotonic() < deadline_s, "no frames"
-            frames += decoder.feed(source.read())
+        wait_for(lambda: len(frames) >= 5, "frames", meanwhile=lambda: frames.extend(decoder.feed(source.read())))
     finally:
         source.close()
         board.close()

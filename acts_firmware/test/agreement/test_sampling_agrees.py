@@ -16,6 +16,7 @@ from core_library import CoreSampler
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from published_spacing import PUBLISHED_SPACING
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import NEIGHBOURS, SCHEME_NUMBERS, Sampler, SamplingConfig, SkinMap, measure_in, quota_of
@@ -26,31 +27,6 @@ from acts_core.skin import layout
 pytestmark = pytest.mark.slow
 
 FRAMES = 3
-
-# M and spacing (rows, columns) of the authors' firmware on 32 x 32.
-PUBLISHED_SPACING = {
-    36: (6, 6),
-    42: (6, 5),
-    48: (6, 4),
-    49: (5, 5),
-    56: (5, 4),
-    64: (4, 4),
-    66: (6, 3),
-    77: (5, 3),
-    88: (4, 3),
-    96: (6, 2),
-    112: (5, 2),
-    121: (3, 3),
-    128: (4, 2),
-    160: (7, 1),
-    176: (3, 2),
-    192: (6, 1),
-    224: (5, 1),
-    256: (2, 2),
-    352: (3, 1),
-    512: (2, 1),
-    1024: (1, 1),
-}
 
 
 def compare(config: SamplingConfig, fields: NDArray[np.integer], skin_map: SkinMap | None = None) -> None:

@@ -4,7 +4,6 @@
 """Commands to the virtual board over its terminal, as a driver sends them, between the frames of a running stream."""
 
 import os
-import time
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import (
@@ -47,11 +47,11 @@ class Host:
         """The replies to as many commands; the frames between collect in `frames`."""
         self.replies.clear()
         os.write(self._port, command)
-        deadline = time.monotonic() + DEADLINE_S
-        while len(self.replies) < count:
-            assert time.monotonic() < deadline, f"{len(self.replies)} of {count} replies within {DEADLINE_S} s"
-            self.frames += self.board.decoder.feed(self.board.read_bytes())
+        wait_for(lambda: len(self.replies) >= count, f"{count} replies", DEADLINE_S, self.read, lambda: self.replies)
         return list(self.replies)
+
+    def read(self) -> None:
+        self.frames += self.board.decoder.feed(self.board.read_bytes())
 
 
 def test_the_first_words_of_a_host_are_answered_also_where_they_come_between_two_looks(tmp_path: Path) -> None:
@@ -121,10 +121,7 @@ def test_a_host_that_leaves_at_once_is_heard(tmp_path: Path) -> None:
         host = Host(board)
         host.ask(encode_query(2))
         # A board that did not notice the gap answers the first command here as well.
-        deadline = time.monotonic() + DEADLINE_S
-        while host.replies[-1].request != 2:
-            assert time.monotonic() < deadline
-            board.decoder.feed(board.read_bytes())
+        wait_for(lambda: host.replies[-1].request == 2, "the reply to the second", DEADLINE_S, host.read)
         reply = host.replies[-1]
         assert (reply.request, reply.state.settings) == (2, settings)
 

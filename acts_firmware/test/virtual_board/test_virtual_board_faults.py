@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage, BoardSettings, Reply, StreamDecoder, encode_configure, encode_query
@@ -186,10 +187,7 @@ def test_a_query_that_waited_for_a_frozen_board_is_answered_with_the_time_by_the
     began = event(board, "freeze:1", over=False)
     os.write(port, encode_query(1))
     event(board, "freeze:1", over=True)
-    deadline = time.monotonic() + DEADLINE_S
-    while not replies:
-        assert time.monotonic() < deadline, "no reply"
-        board.read_frames(1)
+    wait_for(lambda: replies, "a reply", DEADLINE_S, lambda: board.read_frames(1))
     (reply,) = replies
     assert isinstance(reply, Reply)
     began_us = (began["monotonic_ns"] - board.start["epoch_monotonic_ns"]) // 1000
@@ -216,9 +214,9 @@ def test_a_jump_of_the_clock(board: BoardProcess, fault: str, step_us: int) -> N
         return max(after.board_us - before.board_us for before, after in itertools.pairwise(frames))
 
     # Frames from before the jump may still be waiting, and their clock does not tell.
-    deadline = time.monotonic() + DEADLINE_S
-    while largest_step_us() < 1_000_000 and time.monotonic() < deadline:
-        frames += board.read_frames(1)
+    wait_for(
+        lambda: largest_step_us() >= 1_000_000, "the jump", DEADLINE_S, lambda: frames.extend(board.read_frames(1))
+    )
     assert step_us <= largest_step_us() < step_us + 1_000_000
     assert missing(frames) == 0
 

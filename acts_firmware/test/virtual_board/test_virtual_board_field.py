@@ -19,6 +19,7 @@ import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
 from numpy.typing import NDArray
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage, Reply, StreamDecoder, encode_query
@@ -166,16 +167,20 @@ def test_a_query_that_waited_for_the_world_is_answered_with_the_time_by_then(tmp
         with pressed(ring, np.full(TAXELS, 300.0)):
             board.read_until(partial(is_all, 300))
         frames: list[SampleFrame] = []
-        deadline = time.monotonic() + DEADLINE_S
-        while "no frames until it goes on" not in board.errors.read_text():
-            assert time.monotonic() < deadline, "it tells nothing of the dead world"
+
+        def read() -> None:
             if select.select([port], [], [], 0.01)[0]:
-                frames += board.decoder.feed(os.read(port, 65536))
+                frames.extend(board.decoder.feed(os.read(port, 65536)))
+
+        wait_for(lambda: "no frames until it goes on" in board.errors.read_text(), timeout_s=DEADLINE_S, meanwhile=read)
         os.write(port, encode_query(1))
         with pressed(ring, np.full(TAXELS, 400.0)):
-            while not (replies and is_all(400, frames[-1])):
-                assert time.monotonic() < deadline, "no reply"
-                frames += board.decoder.feed(board.read_bytes())
+            wait_for(
+                lambda: replies and is_all(400, frames[-1]),
+                "a reply",
+                DEADLINE_S,
+                lambda: frames.extend(board.decoder.feed(board.read_bytes())),
+            )
     (reply,) = replies
     assert isinstance(reply, Reply)
     last = [frame for frame in frames if is_all(300, frame)][-1]

@@ -5,12 +5,12 @@
 
 import os
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
 from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
+from waiting import wait_for
 
 from acts_core.runtime.scheduling import SHORTEST_NS, time_slice_ns
 
@@ -23,10 +23,10 @@ TOO_MUCH = (
 
 
 def wait_for_words(board: BoardProcess, words: str) -> None:
-    end_s = time.monotonic() + DEADLINE_S
-    while words not in board.errors.read_text():
-        assert time.monotonic() < end_s, f"waited for {words!r}: {board.errors.read_text()!r}"
+    def look() -> None:
         assert board.process.poll() is None, board.errors.read_text()
+
+    wait_for(lambda: words in board.errors.read_text(), repr(words), DEADLINE_S, look, board.errors.read_text)
 
 
 @pytest.mark.usefixtures("realtime")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from board_client import BoardClient
 from board_process import BoardProcess
-from numpy.typing import NDArray
+from pressed_frames import press
 
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame
@@ -23,11 +23,6 @@ from acts_recon.objects.classification import BOARD_COLUMNS
 from acts_recon.sparse import Dictionary, Reconstructor, ReconstructorConfig, load_dictionary, shipped_dictionary_path
 
 pytestmark = pytest.mark.slow
-
-
-def press(row: float, col: float, width: float) -> NDArray[np.uint16]:
-    r, c = np.indices((32, 32))
-    return np.rint(800 * np.exp(-((r - row) ** 2 + (c - col) ** 2) / (2 * width**2))).astype(np.uint16)
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from rclpy.node import Node
-from recon_bench import Peers, publisher_of
+from recon_bench import Listener, publisher_of
 from recon_samples import bump
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -39,11 +39,11 @@ def samples_of(image: NDArray, sequence: int) -> TactileSamples:
     return message
 
 
-def has_more(peers: Peers, count: int) -> bool:
+def has_more(peers: Listener, count: int) -> bool:
     return len(peers.received["contacts"]) > count
 
 
-def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[..., Peers]) -> None:
+def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable[..., Listener]) -> None:
     peers = make_peers(120)
     node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
     assert node.get_parameter("contacts_bridge_s").value == pytest.approx(0.02)
@@ -80,7 +80,7 @@ def test_the_node_publishes_contacts_with_numbers_that_last(make_peers: Callable
     assert upper.area == pytest.approx(upper.active_taxels * GEOMETRY.taxel_area_m2)
 
 
-def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Callable[..., Peers]) -> None:
+def test_contacts_on_a_board_that_begins_anew_have_new_numbers(make_peers: Callable[..., Listener]) -> None:
     peers = make_peers(120)
     node = peers.add(ReconstructionNode(context=peers.context, namespace="/plate", cli_args=[]))
     publisher = peers.peer.create_publisher(TactileSamples, "samples", qos.STREAM)
@@ -110,7 +110,7 @@ VIEWED = ["view/contacts", "contacts_view"]
 class Publishing:
     """A `ContactsPublisher` that is given images, and a peer that listens to all of its topics."""
 
-    def __init__(self, make_peers: Callable[..., Peers]) -> None:
+    def __init__(self, make_peers: Callable[..., Listener]) -> None:
         self.peers = make_peers(121)
         node = self.peers.add(Node("maker", namespace="/plate", context=self.peers.context))
         settings = ReconstructionSettings()
@@ -132,7 +132,7 @@ class Publishing:
         return self._contacts._send and self._contacts.viewed == VIEWED
 
 
-def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Peers]) -> None:
+def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Callable[..., Listener]) -> None:
     publishing = Publishing(make_peers)
     received = publishing.peers.received
     image = bump(GEOMETRY, 20.0, 12.0).astype(np.float32)
@@ -164,7 +164,9 @@ def test_standard_deviations_and_markers_are_those_of_the_contact(make_peers: Ca
     assert 0 < disc.lifetime.nanosec < 1e9
 
 
-def test_of_more_contacts_than_fit_as_many_as_fit_are_sent_and_that_is_said(make_peers: Callable[..., Peers]) -> None:
+def test_of_more_contacts_than_fit_as_many_as_fit_are_sent_and_that_is_said(
+    make_peers: Callable[..., Listener],
+) -> None:
     publishing = Publishing(make_peers)
     received = publishing.peers.received
     many = np.zeros((32, 32), dtype=np.float32)

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from recon_bench import Peers
+from recon_bench import Listener
 
 from acts_core.errors import SettingsError
 from acts_msgs.msg import Contact, FootStep, Gait
@@ -34,7 +34,7 @@ def contact_of(foot: int, number: int) -> Contact:
     return message
 
 
-def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Peers]) -> None:
+def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Listener]) -> None:
     peers = make_peers(22, "")
     node = peers.add(GaitNode(context=peers.context))
     publishers = [

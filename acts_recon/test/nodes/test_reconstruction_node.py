@@ -17,7 +17,7 @@ from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
-from recon_bench import Bench, Peers, publisher_of, timed
+from recon_bench import Bench, Listener, publisher_of, timed
 from recon_samples import bump, sample
 from sensor_msgs.msg import Image
 
@@ -54,7 +54,7 @@ def test_rates_of_images_change_while_it_runs(make_bench: Callable[..., Bench]) 
 
 
 def test_diagnostics_say_that_it_compiles_while_it_does(
-    make_peers: Callable[..., Peers], monkeypatch: pytest.MonkeyPatch
+    make_peers: Callable[..., Listener], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     peers = make_peers(191)
     told: list[DiagnosticArray] = []

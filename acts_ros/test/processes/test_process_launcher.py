@@ -16,12 +16,12 @@ import signal
 import subprocess
 import sys
 import termios
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from waiting import wait_for
 
 from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
@@ -85,10 +85,7 @@ class Run:
         return [int(number) for number in re.findall(r"started with pid \[(\d+)\]", self.output)]
 
     def wait_until(self, condition: Callable[[], bool]) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, self.output
-            time.sleep(0.01)
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: self.output)
 
 
 @contextmanager
@@ -245,15 +242,10 @@ def test_output_that_nobody_reads_holds_nothing_up(tmp_path: Path) -> None:
     process = subprocess.Popen([sys.executable, "-c", chatty], stdout=write_end)
     os.close(write_end)
     try:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while pipe_room(read_end) > 0 or len(children_of(process.pid)) < 2:
-            assert time.monotonic() < deadline_s
-            time.sleep(0.01)
+        wait_for(lambda: pipe_room(read_end) == 0 and len(children_of(process.pid)) >= 2, timeout_s=DEADLINE_S)
         pids = children_of(process.pid)
         process.send_signal(signal.SIGINT)
-        while not all(is_gone(pid) for pid in pids):
-            assert time.monotonic() < deadline_s
-            time.sleep(0.01)
+        wait_for(lambda: all(is_gone(pid) for pid in pids), timeout_s=DEADLINE_S)
         with open(read_end, "rb", closefd=False) as reader:
             shown = reader.read().decode().splitlines()
         assert process.wait(DEADLINE_S) == 0

@@ -14,12 +14,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
+from peers import Peers
 
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_core.robots import ur5e
@@ -33,30 +30,24 @@ pytestmark = pytest.mark.slow
 DEADLINE_S = 40.0
 
 
-class Observer:
+class Observer(Peers):
     """What a demo sees of the node."""
 
+    timeout_s = DEADLINE_S
+
     def __init__(self, domain_id: int) -> None:
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain_id)
-        self.node = Node("observer", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-        self.truth: list[PointStamped] = []
+        super().__init__(domain_id, "observer")
+        self.truth = self.listen(PointStamped, "/plate/ball/truth", qos.STATE)
         self.reports: list[tuple[bytes, str, dict[str, str]]] = []
-        self.node.create_subscription(PointStamped, "/plate/ball/truth", self.truth.append, qos.STATE)
-        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
+        self.peer.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 10)
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
             assert status.name == "plate/ball_world"
             self.reports.append((status.level, status.message, {item.key: item.value for item in status.values}))
 
-    def until(self, condition: Callable[[], bool], what: str) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert time.monotonic() < deadline_s, f"{what}; last reports {self.reports[-2:]}"
-            self.executor.spin_once(timeout_sec=0.02)
+    def situation(self) -> str:
+        return f"last reports {self.reports[-2:]}"
 
     def until_reported(self, level: bytes, words: str) -> dict[str, str]:
         seen = len(self.reports)
@@ -66,13 +57,8 @@ class Observer:
             found[:] = [values for at, message, values in self.reports[seen:] if at == level and words in message]
             return bool(found)
 
-        self.until(reported, f"no report of {words!r}")
+        self.until(reported, what=f"a report of {words!r}")
         return found[-1]
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.try_shutdown(context=self.context)
 
 
 @contextmanager
@@ -122,7 +108,7 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
     with world(100, tmp_path, "start_after_s:=0.5", "replace_after_s:=0.2") as process:
         # No robot yet: said, and the plate is level, so the ball stays where it was put.
         observer.until_reported(b"\x01", "there is no joint ring")
-        observer.until(lambda: len(observer.truth) > 10, "no truth")
+        observer.until(lambda: len(observer.truth) > 10)
         message = observer.truth[-1]
         assert message.header.frame_id == "plate"
         assert (message.point.x, message.point.y, message.point.z) == (0.020, -0.015, 0.0)
@@ -131,7 +117,7 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
 
         # The field: in the near future, with the weight and the place of the ball.
         reader = TimedRingReader(tmp_path / "run" / "field.ring", 1024)
-        observer.until(lambda: newest_in(reader)[0] > time.monotonic_ns(), "the field is never ahead")
+        observer.until(lambda: newest_in(reader)[0] > time.monotonic_ns())
         field_n = ForceResponse().force_n(newest_in(reader)[1]).reshape(32, 32)
         assert field_n.sum() == pytest.approx(5.0, abs=0.3)
         assert (field_n.sum(axis=0) * (np.arange(32) - 15.5)).sum() / field_n.sum() * 0.004375 == pytest.approx(
@@ -149,27 +135,27 @@ def test_the_ball_follows_the_joints_and_presses_the_field(observer: Observer, t
                 return done
 
             seen = len(observer.truth)
-            observer.until(robot(tilted(0.06), lambda: observer.truth[-1].point.x > 0.06), "it does not roll")
+            observer.until(robot(tilted(0.06), lambda: observer.truth[-1].point.x > 0.06), what="a roll")
             x_m = [message.point.x for message in observer.truth[seen:]]
             assert x_m == sorted(x_m)
-            observer.until(robot(tilted(0.06), lambda: observer.reports[-1][2]["falls"] == "1"), "it does not fall")
+            observer.until(robot(tilted(0.06), lambda: observer.reports[-1][2]["falls"] == "1"), what="a fall")
             level = tilted(0.0)
-            observer.until(robot(level, lambda: abs(observer.truth[-1].point.x - 0.020) < 1e-6), "it is not put back")
-            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "not well again")
+            observer.until(robot(level, lambda: abs(observer.truth[-1].point.x - 0.020) < 1e-6), what="its return")
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), what="no complaint")
             assert observer.reports[-1][2]["joints"] == "following the robot"
 
             # Joints of NaN are refused.
             bad = np.full(JOINT_RING_WIDTH, np.nan)
-            observer.until(robot(bad, lambda: "NaN" in observer.reports[-1][1]), "NaN is not reported")
+            observer.until(robot(bad, lambda: "NaN" in observer.reports[-1][1]), what="a report of NaN")
             assert observer.reports[-1][0] == b"\x02"
             assert int(observer.reports[-1][2]["joints_refused"]) > 0
             assert np.isfinite(newest_in(reader)[1]).all()
-            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "not well after NaN")
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), what="no complaint")
 
         # The robot ends and removes its ring, then another one starts in its place.
         observer.until_reported(b"\x01", "the robot has stopped writing its joints")
         with TimedRingWriter(tmp_path / "joints.ring", JOINT_RING_WIDTH) as joints:
-            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), "the new robot is not followed")
+            observer.until(robot(level, lambda: observer.reports[-1][0] == b"\x00"), what="no complaint")
 
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20)
@@ -261,7 +247,7 @@ def test_without_a_robot_nothing_is_amiss(observer: Observer, tmp_path: Path) ->
     with world(103, tmp_path, "joint_ring:=none"):
         values = observer.until_reported(b"\x00", "the ball is")
         assert values["joints"] == "there is no robot"
-        observer.until(lambda: len(observer.truth) > 10, "no truth")
+        observer.until(lambda: len(observer.truth) > 10)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import json
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ import pytest
 from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite
 from hand_motors import AROUND_SPHERE
 from motor_bus import IDS, MotorBus
+from waiting import wait_for
 
 from acts_core.skin import layout
 from acts_sim.hand import HandTruth, TruthFollower
@@ -69,24 +70,17 @@ def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rig]:
     rig.close()
 
 
-def until(condition: Callable[[], bool], seconds: float = 15.0) -> None:
-    end_s = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end_s, "did not happen in time"
-        time.sleep(0.005)
-
-
 def test_fingers_close_and_feel(rig: Rig) -> None:
     assert all(abs(one - 2048) < 300 for one in rig.positions())
     palm = layout("leap_right").patch_of_taxel.ravel() == 0
-    until(lambda: rig.felt()[palm].sum() > 100.0)
+    wait_for(lambda: rig.felt()[palm].sum() > 100.0)
     assert not rig.felt()[~palm].any()
     for address, size, value in ((64, 1, 0), (11, 1, 5), (84, 2, 600), (80, 2, 200), (102, 2, 300), (64, 1, 1)):
         rig.write_all(address, size, [value] * 16)
     rig.write_all(116, 4, [2048 + round(angle * 4096 / (2 * np.pi)) for angle in AROUND_SPHERE])
-    until(lambda: bool(rig.felt()[~palm].any()))
+    wait_for(lambda: bool(rig.felt()[~palm].any()))
     middle = layout("leap_right").patch_of_taxel.ravel() == PATCHES.index("middle_distal")
-    until(lambda: rig.felt()[middle].sum() > 100.0)
+    wait_for(lambda: rig.felt()[middle].sum() > 100.0)
     assert rig.positions()[5] > 2048 + 600
     truth = rig.state()["truth"]
     assert truth["patches"]["middle_distal"]["force_n"] > 0.1
@@ -103,12 +97,12 @@ def test_the_field_is_ahead_of_the_clock_by_what_was_said(rig: Rig) -> None:
     assert newest is not None
     # Later than told only where the machine let the process wait.
     assert newest[0] - time.monotonic_ns() <= 4_000_000
-    until(lambda: newest_ns(rig) - time.monotonic_ns() > 2_000_000)
+    wait_for(lambda: newest_ns(rig) - time.monotonic_ns() > 2_000_000)
 
 
 def test_the_truth_comes_as_rows_with_their_times(rig: Rig) -> None:
     rig.truth.new()
-    until(lambda: rig.state()["loop"]["steps"] > 200)
+    wait_for(lambda: rig.state()["loop"]["steps"] > 200)
     assert rig.command("shake x 3 5 0.4") == "ok"
     seen: list[tuple[int, HandTruth]] = []
 
@@ -117,7 +111,7 @@ def test_the_truth_comes_as_rows_with_their_times(rig: Rig) -> None:
         seen.extend(zip(times_ns.tolist(), (HandTruth.from_row(row, PATCHES) for row in rows), strict=True))
         return max((abs(truth.gravity_m_s2[0]) for _, truth in seen), default=0.0) > 1.0
 
-    until(shaken)
+    wait_for(shaken)
     steps_ns = np.diff([time_ns for time_ns, _ in seen])
     assert (steps_ns >= 2_000_000).all()
     worlds = np.diff([truth.time_s for _, truth in seen])
@@ -126,9 +120,9 @@ def test_the_truth_comes_as_rows_with_their_times(rig: Rig) -> None:
 
 def test_a_poke_is_felt_where_it_was_asked_for(rig: Rig) -> None:
     assert rig.command("poke thumb_medial sharp 100 2") == "ok"
-    until(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] > 0.02)
+    wait_for(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] > 0.02)
     assert rig.command("withdraw") == "ok"
-    until(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] == 0.0)
+    wait_for(lambda: rig.state()["truth"]["patches"]["thumb_medial"]["tip_force_n"] == 0.0)
 
 
 def test_faults_of_motors_and_cable(rig: Rig) -> None:
@@ -143,10 +137,10 @@ def test_faults_of_motors_and_cable(rig: Rig) -> None:
     for address, size, value in ((64, 1, 0), (11, 1, 5), (64, 1, 1)):
         rig.write_all(address, size, [value] * 16)
     rig.write_all(116, 4, goals)
-    until(lambda: abs(rig.state()["motors"][1]["torque_nm"]) > 0.05)
+    wait_for(lambda: abs(rig.state()["motors"][1]["torque_nm"]) > 0.05)
     assert abs(rig.positions()[1] - before) <= 1
     assert rig.command("release 1") == "ok"
-    until(lambda: rig.positions()[1] < before - 100)
+    wait_for(lambda: rig.positions()[1] < before - 100)
     assert rig.command("unplug") == "ok"
     assert rig.state()["connected"] is False
     assert rig.command("plug_in") == "ok"

@@ -275,7 +275,7 @@ def test_a_reader_never_sees_a_torn_slot_of_another_process(path: Path) -> None:
         reads = 0
         last_ns = 0
         while reader.written < 150_000:
-            assert time.monotonic() < deadline_s
+            assert time.monotonic() < deadline_s, f"{reader.written} of 150000 slots were written"
             newest = reader.newest()
             if newest is None:
                 continue

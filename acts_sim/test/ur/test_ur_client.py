@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import signal
 import threading
 from collections.abc import Iterator
 
@@ -14,7 +15,8 @@ import pytest
 
 pytest.importorskip("rtde_control", reason="ur_rtde is not installed")
 
-from ur_process import Simulator, wait_for
+from ur_simulator import Simulator
+from waiting import wait_for
 
 pytestmark = pytest.mark.slow
 
@@ -123,7 +125,7 @@ def test_controller_killed_and_restarted(simulator: Simulator) -> None:
     try:
         # `in` reads up to the line, past what the client library itself has to say.
         assert "moved\n" in client.stdout
-        simulator.kill()
+        simulator.stop(signal.SIGKILL)
         # Only now: a client that finds the robot again while it is still looking for it may crash.
         assert "lost\n" in client.stdout
         simulator.start_again()

@@ -17,7 +17,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from ur_process import HOOK_PORT, Simulator, wait_for
+from ur_process import HOOK_PORT
+from ur_simulator import Simulator
+from waiting import wait_for
 
 from acts_core.robots import ur5e
 from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader
@@ -50,7 +52,7 @@ def alive(simulator: Simulator) -> None:
     """The robot's time goes on."""
     before = float(simulator.state()["time_s"])
     wait_for(lambda: simulator.state()["time_s"] > before + 0.02, "the robot's time to go on")
-    assert simulator.process.poll() is None, simulator.error_text()
+    assert simulator.process.poll() is None, simulator.text()
 
 
 def read_until_closed(connection: socket.socket) -> bytes:
@@ -241,31 +243,30 @@ def test_arguments_of_ros_are_left_out() -> None:
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_signals_end_it_and_the_ring_goes(number: signal.Signals, tmp_path: Path) -> None:
     ring = tmp_path / "joints.ring"
-    running = Simulator("127.0.1.22", "--joint-ring", str(ring), "--q0", "0.1, 0.2, 0.3, 0.4, 0.5, 0.6")
-    assert running.state()["q_rad"] == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
-    assert ring.exists()
-    assert running.stop(number) == 0
-    assert not ring.exists()
+    with Simulator("127.0.1.22", "--joint-ring", str(ring), "--q0", "0.1, 0.2, 0.3, 0.4, 0.5, 0.6") as running:
+        assert running.state()["q_rad"] == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+        assert ring.exists()
+        assert running.stop(number, timeout_s=10.0) == 0
+        assert not ring.exists()
 
 
 def test_ctrl_c_leaves_a_client_the_time_to_end_its_motion() -> None:
-    running = Simulator("127.0.1.22")
-    with connect(DASHBOARD_PORT, running.host) as client, client.makefile("r") as answers:
-        assert answers.readline().startswith("Connected")
-        before_s = running.state()["time_s"]
-        running.process.send_signal(signal.SIGINT)
-        running.process.send_signal(signal.SIGINT)
-        wait_for(lambda: running.state()["time_s"] > before_s + 0.2, "the robot's time to go on")
-        client.sendall(b"stop\n")
-        assert answers.readline() == "Stopped\n"
-    assert running.stop(signal.SIGINT) == 0
+    with Simulator("127.0.1.22") as running:
+        with connect(DASHBOARD_PORT, running.host) as client, client.makefile("r") as answers:
+            assert answers.readline().startswith("Connected")
+            before_s = running.state()["time_s"]
+            running.process.send_signal(signal.SIGINT)
+            running.process.send_signal(signal.SIGINT)
+            wait_for(lambda: running.state()["time_s"] > before_s + 0.2, "the robot's time to go on")
+            client.sendall(b"stop\n")
+            assert answers.readline() == "Stopped\n"
+        assert running.stop(signal.SIGINT, timeout_s=10.0) == 0
 
 
 def test_sigterm_ends_it_whoever_is_connected() -> None:
-    running = Simulator("127.0.1.22")
-    with connect(DASHBOARD_PORT, running.host) as client:
+    with Simulator("127.0.1.22") as running, connect(DASHBOARD_PORT, running.host) as client:
         assert client.recv(100).startswith(b"Connected")
-        assert running.stop(signal.SIGTERM) == 0
+        assert running.stop(signal.SIGTERM, timeout_s=10.0) == 0
         assert client.recv(100) == b""
 
 

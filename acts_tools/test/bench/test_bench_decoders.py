@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sample_frames import frames
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder, encode_frame
@@ -18,25 +19,6 @@ from acts_tools.bench.cases.decode import same_frames
 from acts_tools.bench.references.naive_decoder import NaiveDecoder
 
 pytestmark = pytest.mark.slow
-
-
-@st.composite
-def frames(draw: st.DrawFn) -> SampleFrame:
-    rows, cols = draw(st.integers(1, 64)), draw(st.integers(1, 64))
-    m = draw(st.integers(1, min(rows * cols, 300)))
-    random = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    return SampleFrame(
-        sequence=draw(st.integers(0, 2**32 - 1)),
-        board_us=draw(st.integers(0, 2**64 - 1)),
-        duration_us=draw(st.integers(0, 2**32 - 1)),
-        scheme=draw(st.sampled_from(Scheme)),
-        rows=rows,
-        cols=cols,
-        overruns=draw(st.integers(0, 2**32 - 1)),
-        indices=random.permutation(rows * cols)[:m].astype(np.uint16),
-        # Small counts as on an untouched skin, where most bytes are zero, and large ones, where few are.
-        counts=random.integers(0, draw(st.sampled_from([1, 4, 1024])), m).astype(np.uint16),
-    )
 
 
 def fed_in_pieces(decoder: StreamDecoder | NaiveDecoder, stream: bytes, cuts: list[int]) -> list[SampleFrame]:

@@ -12,13 +12,13 @@ import select
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import psutil
 import pytest
+from waiting import wait_for
 
 pytestmark = pytest.mark.slow
 
@@ -115,11 +115,11 @@ class Running:
         self.text = ""
 
     def read_until(self, words: str) -> None:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while words not in self.text:
-            assert time.monotonic() < deadline_s, self.text
-            if select.select([self._end], [], [], 0.1)[0]:
-                self.text += os.read(self._end, 4096).decode(errors="replace")
+        wait_for(lambda: words in self.text, repr(words), DEADLINE_S, self._read, lambda: self.text)
+
+    def _read(self) -> None:
+        if select.select([self._end], [], [], 0.1)[0]:
+            self.text += os.read(self._end, 4096).decode(errors="replace")
 
     def children(self) -> list[psutil.Process]:
         return psutil.Process(self.process.pid).children(recursive=True)

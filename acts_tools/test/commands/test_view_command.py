@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from waiting import text_of
 from websockets import Origin
 from websockets.sync.client import ClientConnection, connect
 
@@ -127,7 +128,7 @@ def test_a_board_without_a_graph_is_recorded_by_its_page(tmp_path: Path) -> None
                         header = next_header(page)
                         if condition(header):
                             return header
-                    raise AssertionError("it was not told")
+                    raise AssertionError(f"it was not told: {text_of(condition)}")
 
                 page.send('{"id":1,"do":"record"}')
                 assert until(lambda header: header.get("id") == 1)["done"]
@@ -176,7 +177,7 @@ def test_a_board_that_says_nothing_more_is_not_tared(tmp_path: Path) -> None:
                         answer = tare(number)
                         if condition(answer):
                             return
-                        assert time.monotonic() < deadline_s, answer
+                        assert time.monotonic() < deadline_s, (text_of(condition), answer)
 
                 until(lambda answer: answer["done"], 1)
                 board.process.send_signal(signal.SIGSTOP)

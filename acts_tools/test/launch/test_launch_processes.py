@@ -13,8 +13,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -22,6 +20,7 @@ from typing import Any
 import psutil
 import pytest
 from fake_prefix import Prefix
+from waiting import wait_for
 
 from acts_tools.testing.launch_runner import ProcessLaunch, launched
 
@@ -65,13 +64,6 @@ def is_alive(number: int) -> bool:
         return psutil.Process(number).status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
         return False
-
-
-def eventually(condition: Callable[[], bool], timeout_s: float = 10.0) -> bool:
-    deadline_s = time.monotonic() + timeout_s
-    while not condition() and time.monotonic() < deadline_s:
-        time.sleep(0.02)
-    return condition()
 
 
 def test_ctrl_c_ends_all_nodes_once_each_and_the_exit_code_is_zero(prefix: Prefix) -> None:
@@ -201,7 +193,7 @@ def test_what_a_node_has_started_itself_ends_with_it(prefix: Prefix) -> None:
         run.wait_for(lambda: run.output.count("child ") == 2)
         children = [int(number) for number in re.findall(r"child (\d+)", run.output)]
         assert run.stop() == 0
-        assert eventually(lambda: all_gone(children))
+        wait_for(lambda: all_gone(children), timeout_s=10.0)
 
 
 def test_nodes_end_when_the_launcher_is_killed(prefix: Prefix) -> None:
@@ -211,7 +203,7 @@ def test_nodes_end_when_the_launcher_is_killed(prefix: Prefix) -> None:
         numbers = pids(run)
         run.process.kill()
         run.process.wait()
-        assert eventually(lambda: all_gone(numbers))
+        wait_for(lambda: all_gone(numbers), timeout_s=10.0)
 
 
 def test_a_reader_that_goes_away_stops_the_nodes(prefix: Prefix) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 from rclpy.node import Node
-from spinning_node import spinning_node
+from spinning import spinning_node
 from std_srvs.srv import SetBool, Trigger
 
 from acts_tools.cli import main

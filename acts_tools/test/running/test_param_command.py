@@ -11,7 +11,7 @@ import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from spinning_node import spinning_node
+from spinning import spinning_node
 
 from acts_tools.cli import main
 

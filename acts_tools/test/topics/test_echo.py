@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import array
 import contextlib
+import itertools
 import subprocess
 import sys
-import time
 from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -25,6 +25,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import BatteryState, Image
 from std_msgs.msg import UInt8
+from waiting import wait_for
 
 from acts_msgs.msg import BalanceStatus, Impact
 from acts_ros.qos import STREAM
@@ -107,14 +108,14 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
 
 def publish_until_it_ends(process: subprocess.Popen[str], publisher: Publisher) -> None:
     """Publish impacts, numbered from 1 on, every 10 ms until the process has ended."""
-    deadline_s = time.monotonic() + DEADLINE_S
-    number = 0
-    while process.poll() is None:
-        assert time.monotonic() < deadline_s
-        number += 1
-        publisher.publish(Impact(number=number))
+    numbers = itertools.count(1)
+
+    def publish() -> None:
+        publisher.publish(Impact(number=next(numbers)))
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(0.01)
+
+    wait_for(lambda: process.poll() is not None, "the end of the process", DEADLINE_S, publish)
 
 
 def test_the_command_prints_as_many_messages_as_are_wanted(talker: Node) -> None:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -19,8 +18,9 @@ from rclpy.parameter import Parameter
 from rclpy.service import Service
 from spinning import Spinning
 from std_srvs.srv import Trigger
-from test_view_codec import decode
 from view_browser import expect, needs_browser
+from view_node_bench import header_where
+from waiting import wait_for
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
@@ -76,9 +76,7 @@ class Bench:
     def on_executor(self, work: Callable[[], object]) -> None:
         # It may not meet what is being destroyed.
         task = self._spinning.executor.create_task(work)
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not task.done():
-            assert time.monotonic() < deadline_s
+        wait_for(task.done, "the executor", DEADLINE_S)
         task.result()
 
     def connect(self) -> ClientConnection:
@@ -121,22 +119,13 @@ def begin() -> Iterator[Callable[..., Bench]]:
         one.close()
 
 
-def until(client: ClientConnection, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-    deadline_s = time.monotonic() + DEADLINE_S
-    while time.monotonic() < deadline_s:
-        header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
-        if condition(header):
-            return header
-    raise AssertionError("it was not told")
-
-
 def test_a_page_that_only_shows_is_refused_by_the_server(begin: Callable[..., Bench]) -> None:
     bench = begin(control=False)
     with bench.connect() as client:
-        status = until(client, lambda header: header["type"] == "status")
+        status = header_where(client, lambda header: header["type"] == "status")
         assert "offers" not in status
         client.send('{"id":1,"do":"tare","skin":"/plate"}')
-        answer = until(client, lambda header: header["type"] == "answer")
+        answer = header_where(client, lambda header: header["type"] == "answer")
         assert (answer["done"], bench.called) == (False, [])
         assert "--control" in answer["text"]
 
@@ -144,7 +133,7 @@ def test_a_page_that_only_shows_is_refused_by_the_server(begin: Callable[..., Be
 def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(begin: Callable[..., Bench]) -> None:
     bench = begin(control=True)
     with bench.connect() as client:
-        until(client, lambda header: ["tare", "/stuck"] in header.get("offers", []))
+        header_where(client, lambda header: ["tare", "/stuck"] in header.get("offers", []))
         refused: list[dict[str, Any]] = [
             {"do": "tare", "skin": "/nowhere"},
             {"do": "shutdown", "skin": "/plate"},
@@ -155,20 +144,20 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
         ]
         for number, request in enumerate(refused):
             client.send(json.dumps({"id": number, **request}))
-            answer = until(client, lambda header, number=number: header.get("id") == number)  # type: ignore[misc]
+            answer = header_where(client, lambda header, number=number: header.get("id") == number)  # type: ignore[misc]
             assert answer["done"] is False
             assert answer["text"]
         # As soon as its client is connected it is asked, and what comes after is answered before it.
         client.send('{"id":50,"do":"tare","skin":"/stuck"}')
         client.send('{"id":51,"do":"tare","skin":"/plate"}')
         order: list[dict[str, Any]] = []
-        until(client, lambda header: header["type"] == "answer" and (order.append(header) or len(order) == 2))  # type: ignore[func-returns-value]
+        header_where(client, lambda header: header["type"] == "answer" and (order.append(header) or len(order) == 2))  # type: ignore[func-returns-value]
         assert [one["id"] for one in order] == [51, 50]
         assert [one["done"] for one in order] == [True, False]
         assert "did not answer" in order[1]["text"]
         for number in range(60, 66):
             client.send(json.dumps({"id": number, "do": "tare", "skin": "/stuck"}))
-        first = until(client, lambda header: header["type"] == "answer")
+        first = header_where(client, lambda header: header["type"] == "answer")
         assert (first["id"], first["done"]) == (64, False)
         assert "wait for their answers" in first["text"]
     assert bench.called == ["driver/tare"]
@@ -177,18 +166,20 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
 def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench]) -> None:
     bench = begin(control=True)
     with bench.connect() as client:
-        until(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
+        header_where(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
         # Once it has been called there is a client, which keeps the name in the graph.
         client.send('{"id":1,"do":"tare","skin":"/plate"}')
-        assert until(client, lambda header: header.get("id") == 1)["done"]
+        assert header_where(client, lambda header: header.get("id") == 1)["done"]
         bench.on_executor(lambda: bench.driver.destroy_service(bench.services["/plate/tare"]))
-        status = until(client, lambda header: ["tare", "/plate"] not in header.get("offers", [["tare", "/plate"]]))
+        status = header_where(
+            client, lambda header: ["tare", "/plate"] not in header.get("offers", [["tare", "/plate"]])
+        )
         assert ["calibrate", "/plate"] in status["offers"]
         # It may come back.
         bench.on_executor(lambda: bench.driver.create_service(Trigger, "~/tare", bench.callback("driver", "tare")))
-        until(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
+        header_where(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
         client.send('{"id":2,"do":"tare","skin":"/plate"}')
-        assert until(client, lambda header: header.get("id") == 2)["done"]
+        assert header_where(client, lambda header: header.get("id") == 2)["done"]
 
 
 @needs_browser

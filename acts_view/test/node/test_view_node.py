@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-import time
 import tracemalloc
 from array import array
 from collections.abc import Iterator
@@ -19,6 +18,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import Image
 from view_node_bench import DEADLINE_S, Bench
+from waiting import wait_for
 
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
@@ -114,7 +114,7 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
     assert history[:, 3].min() == 1.0
     assert history[:, 4].max() == 3.0
     assert history[:, 2].sum() == 0
-    bench.spin_until(lambda: contact_subscribers(bench) == 0)
+    wait_for(lambda: contact_subscribers(bench) == 0)
 
 
 def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_bag(bench: Bench) -> None:
@@ -258,9 +258,7 @@ def test_of_long_diagnostics_only_what_can_be_shown_is_kept_and_that_not_for_eve
     assert len(bench.view._heard) == 200
     # Forgotten though no page is open.
     monkeypatch.setattr(view_node, "_FORGET_NODE_S", 0.1)
-    deadline_s = time.monotonic() + DEADLINE_S
-    while any(name[0].isdigit() for name in bench.view._heard):
-        assert time.monotonic() < deadline_s
+    wait_for(lambda: not any(name[0].isdigit() for name in bench.view._heard), "that they are forgotten", DEADLINE_S)
 
 
 @pytest.mark.parametrize(

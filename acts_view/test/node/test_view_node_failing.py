@@ -51,7 +51,7 @@ def test_a_skin_that_cannot_be_shown_leaves_the_others_and_is_told_of(
         url = f"ws://127.0.0.1:{address.port}/stream"
         with connect(url, origin=Origin(address.url.rstrip("/")), compression=None) as client:
             while not shown:
-                assert time.monotonic() < deadline_s
+                assert time.monotonic() < deadline_s, "no frame is shown"
                 for publisher in publishers:
                     publisher.publish(Contact(in_contact=True, force=1.0))
                 header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]

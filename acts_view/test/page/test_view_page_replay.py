@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from test_view_local import Shown, until, write_frames
+from test_view_local import Shown, write_frames
 from view_browser import expect, needs_browser
 from view_player import Player, pressed
+from waiting import wait_for
 
 from acts_core.errors import ViewRequestError
 from acts_core.frames import SampleFrame, Scheme
@@ -139,7 +140,7 @@ def test_the_slider_reaches_the_end_of_a_recording(tmp_path: Path, open_page: Ca
         slider = page.locator("#replay input")
         slider.press("End")
         assert float(slider.input_value()) >= length_s
-        until(lambda: bool(source.status()["replay"]["position_s"] == pytest.approx(length_s)))
+        wait_for(lambda: bool(source.status()["replay"]["position_s"] == pytest.approx(length_s)))
     finally:
         shown.close()
 

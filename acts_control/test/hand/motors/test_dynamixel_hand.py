@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import os
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, reading_where
 from dynamixel_sdk import COMM_RX_TIMEOUT, Protocol2PacketHandler
+from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError
@@ -147,9 +147,7 @@ def test_motors_stop_by_themselves_when_they_hear_nothing(bus: Bus) -> None:
     hand.connect()
     hand.enable()
     hand.command([0.3] * 16)
-    end_s = time.monotonic() + DEADLINE_S
-    while {motor["bus_watchdog"] for motor in bus.motors()} != {255}:
-        assert time.monotonic() < end_s
+    wait_for(lambda: {motor["bus_watchdog"] for motor in bus.motors()} == {255}, timeout_s=DEADLINE_S)
     hand.enable()  # sets them going again
     hand.command([0.1] * 16)
     reading_where(hand, lambda it: it.q_rad == pytest.approx([0.1] * 16, abs=0.02))
@@ -160,9 +158,7 @@ def test_motors_that_their_watchdog_has_stopped_are_set_up_anew(bus: Bus) -> Non
     first = bus.hand(motor_watchdog_s=0.1)
     first.connect()
     first.enable()
-    end_s = time.monotonic() + DEADLINE_S
-    while {motor["bus_watchdog"] for motor in bus.motors()} != {255}:
-        assert time.monotonic() < end_s
+    wait_for(lambda: {motor["bus_watchdog"] for motor in bus.motors()} == {255}, timeout_s=DEADLINE_S)
     first.close()
     second = bus.hand(motor_watchdog_s=0.1, max_current_ma=200)
     second.connect()

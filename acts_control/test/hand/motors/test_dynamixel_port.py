@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 import os
-import time
 from pathlib import Path
 
 import pytest
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
 from dynamixel_sdk import COMM_SUCCESS, PortHandler
+from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelConfig, HandError
@@ -67,9 +67,7 @@ def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
         # A request whose answer nobody waits for.
         assert port._packets.readTx(line, motor.motor_id, *P_GAIN) == COMM_SUCCESS
         line.is_using = False
-        deadline_s = time.monotonic() + DEADLINE_S
-        while line.ser.in_waiting < 13:  # 11 bytes, and the value
-            assert time.monotonic() < deadline_s, "no answer"
+        wait_for(lambda: line.ser.in_waiting >= 13, "an answer: 11 bytes, and the value", DEADLINE_S)
         assert port.read(motor, D_GAIN) == 200
     finally:
         port.close()

@@ -10,14 +10,14 @@ import pty
 import re
 import sys
 import threading
-import time
 import tty
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import pytest
+from waiting import wait_for
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import HandDescription, hand_description
@@ -110,13 +110,6 @@ def servos(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return module
 
 
-def until(condition: Callable[[], bool]) -> None:
-    end_s = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < end_s
-        time.sleep(0.002)
-
-
 def settings(servos: ModuleType, controller: Controller) -> Any:
     # A machine that is busy answers late.
     return servos.LineServosConfig(port=controller.port, line_servos_timeout_s=1.0)
@@ -130,7 +123,7 @@ def test_the_loop_of_a_hand_moves_them_and_releases_them_in_the_end(
     loop = HandLoop(gripper, bus, config, lambda *_told: None)
     loop.launch()
     try:
-        until(lambda: loop.status.phase is HandPhase.ENABLED)
+        wait_for(lambda: loop.status.phase is HandPhase.ENABLED)
         assert controller.has_torque
         loop.command({"left": 0.5})
 
@@ -138,7 +131,7 @@ def test_the_loop_of_a_hand_moves_them_and_releases_them_in_the_end(
             reading = loop.status.reading
             return reading is not None and reading.q_rad[0] == pytest.approx(0.5, abs=1e-3)
 
-        until(is_there)
+        wait_for(is_there)
         # The example's motor of this joint is at 2 rad where the joint is at 0, and turns against it.
         assert controller.angles[0] == pytest.approx(1.5, abs=1e-3)
     finally:
@@ -156,15 +149,15 @@ def test_a_lost_answer_to_a_goal_does_not_let_go_of_what_is_held(
     loop = HandLoop(gripper, bus, config, lambda _level, sentence: told.append(sentence))
     loop.launch()
     try:
-        until(lambda: loop.status.phase is HandPhase.ENABLED)
+        wait_for(lambda: loop.status.phase is HandPhase.ENABLED)
         controller.ignored.append("goal")
-        until(lambda: loop.status.unanswered == 1)
+        wait_for(lambda: loop.status.unanswered == 1)
         cycles = loop.status.cycles
-        until(lambda: loop.status.cycles > cycles + 3)
+        wait_for(lambda: loop.status.cycles > cycles + 3)
         assert told == []
         assert controller.has_torque
         loop.command({"left": 0.5})
-        until(lambda: controller.angles[0] == pytest.approx(1.5, abs=1e-3))
+        wait_for(lambda: controller.angles[0] == pytest.approx(1.5, abs=1e-3))
     finally:
         loop.close()
 
@@ -178,7 +171,7 @@ def test_who_does_not_answer_at_first_is_reached_later(
     loop = HandLoop(gripper, make_motors("line_servos", gripper, settings(servos, controller)), config, lambda *_: None)
     loop.launch()
     try:
-        until(lambda: loop.status.phase is HandPhase.ENABLED)
+        wait_for(lambda: loop.status.phase is HandPhase.ENABLED)
         assert controller.ignored == []
     finally:
         loop.close()

@@ -55,7 +55,7 @@ def test_the_number_of_a_terminal_that_is_gone_is_left_to_the_next(tmp_path: Pat
         if second == first:
             return
         # Another program took the number meanwhile.
-        assert time.monotonic() < end_s
+        assert time.monotonic() < end_s, "no second terminal got the number of the first"
 
 
 def test_a_terminal_that_is_written_to_and_opened_again_stays_the_same(tmp_path: Path) -> None:

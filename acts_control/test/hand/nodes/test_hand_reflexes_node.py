@@ -10,13 +10,11 @@ import time
 from dataclasses import replace
 
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
 from hand_node_rig import Spin, node_and_user
 from hand_rig import all_regions, region
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from peers import Peers
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -253,18 +251,14 @@ def test_stop_is_answered_while_enable_waits_and_the_torque_stays_off(bus: Bus) 
 
 
 def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None:
-    context = Context()
-    rclpy.init(context=context, domain_id=DOMAIN_ID)
+    peers = Peers(DOMAIN_ID, "user")
     # Its loop is not launched: the hand stays as it is put here.
-    hand, user = HandReflexesNode(context=context), Node("user", context=context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(hand)
-    executor.add_node(user)
+    hand, user = peers.add(HandReflexesNode(context=peers.context)), peers.peer
     try:
         # Who is told that the hand cannot be reached is also told what it does when it can be.
         hand.loop.status = replace(hand.loop.status, phase=HandPhase.CONNECTING, reason="the cable is out")
         answer = user.create_client(Trigger, "hand_reflexes/release").call_async(Trigger.Request())
-        executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
+        peers.executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
         assert not answer.result().success
         words = (
             "the hand is not connected: the cable is out; as soon as it can, its torque comes on and its joints stand"
@@ -274,20 +268,14 @@ def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None
         for name in ("stop", "release"):
             client = user.create_client(Trigger, f"hand_reflexes/{name}")
             answer = client.call_async(Trigger.Request())
-            executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
+            peers.executor.spin_until_future_complete(answer, timeout_sec=DEADLINE_S)
             assert answer.result().success, answer.result().message
         hand.loop.status = replace(hand.loop.status, phase=HandPhase.GIVEN_UP, reason="index_pip: overload, 2 times")
-        told: list[HandStatus] = []
-        user.create_subscription(HandStatus, "hand/status", told.append, 10)
-        end_s = time.monotonic() + DEADLINE_S
-        while not told or told[-1].reason != "the hand is given up: index_pip: overload, 2 times":
-            assert time.monotonic() < end_s, told[-1:]
-            executor.spin_once(timeout_sec=0.05)
+        told = peers.listen(HandStatus, "hand/status", 10)
+        given_up = "the hand is given up: index_pip: overload, 2 times"
+        peers.until(lambda: told and told[-1].reason == given_up)
     finally:
-        executor.shutdown()
-        user.destroy_node()
-        hand.destroy_node()
-        context.try_shutdown()
+        peers.close()
 
 
 def answer_of(node: Node, until: Spin, name: str) -> Trigger.Response:

@@ -6,7 +6,10 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
+import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -38,3 +41,19 @@ class Spinning:
         self._ended.set_result(None)
         self._thread.join()
         self.executor.shutdown()
+
+
+@contextmanager
+def spinning_node(name: str, namespace: str, domain_id: int, furnish: Callable[[Node], None]) -> Iterator[Node]:
+    """A node with a context of its own, of which `furnish` has made parameters and services before it spins."""
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = Node(name, namespace=namespace, context=context)
+    furnish(node)
+    spinning = Spinning(context, node)
+    try:
+        yield node
+    finally:
+        spinning.end()
+        node.destroy_node()
+        rclpy.try_shutdown(context=context)
