@@ -15,7 +15,7 @@ from types import TracebackType
 
 import known_field
 from ament_index_python.packages import get_package_prefix
-from waiting import wait_for
+from pty_board import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import StreamDecoder

@@ -8,14 +8,17 @@ from __future__ import annotations
 import os
 import select
 import tty
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+import waiting
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import encode_frame
 
 DEADLINE_S = 20.0
+wait_for = partial(waiting.wait_for, timeout_s=DEADLINE_S)
 
 
 def frame(sequence: int, *, rows: int = 32, cols: int = 32, m: int = 5, board_us: int | None = None) -> SampleFrame:

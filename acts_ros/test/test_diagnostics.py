@@ -12,6 +12,7 @@ from acts_ros.diagnostics import WARN, DiagnosticsReporter
 
 def test_the_report_arrives_with_name_level_and_values() -> None:
     peers = Peers(domain_id=12, name="driver", namespace="/plate")
+    peers.timeout_s = 20.0
     received = peers.listen(DiagnosticArray, "/diagnostics", 10)
     DiagnosticsReporter(
         peers.peer, "/dev/ttyACM0", lambda: (WARN, "3 frames lost", {"lost": 3, "rate_hz": 999.5}), period_s=0.05
@@ -28,6 +29,7 @@ def test_the_report_arrives_with_name_level_and_values() -> None:
 
 def test_a_node_that_cannot_spin_yet_is_heard_until_it_can() -> None:
     peers = Peers(domain_id=12, namespace="/plate")
+    peers.timeout_s = 20.0
     node = Node("reconstruction", namespace="/plate", context=peers.context)
     received = peers.listen(DiagnosticArray, "/diagnostics", 10)
     reporter = DiagnosticsReporter(node, "/plate/samples", lambda: (WARN, "ready", {}), period_s=0.05)

@@ -19,7 +19,7 @@ from dashboard_client import DashboardClient
 from rtde_control import RTDEControlInterface
 from rtde_receive import RTDEReceiveInterface
 from ur_process import hook
-from waiting import wait_for
+from ur_simulator import wait_for
 
 from acts_core.robots import ur5e
 

@@ -9,11 +9,14 @@ import json
 import os
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import waiting
 from ur_process import UrProcess
 
+wait_for = partial(waiting.wait_for, timeout_s=15.0)
 CLIENTS = Path(__file__).with_name("ur_clients.py")
 
 

@@ -13,9 +13,8 @@ import pytest
 from board_host import Host, LossyWay, SimpleBoard
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pty_board import PtyBoard
+from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
-from waiting import wait_for
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame

@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from board_host import SIZE, Host, LossyWay, SimpleBoard
-from pty_board import PtyBoard
+from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
-from waiting import wait_for
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.sampling import SkinMap

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from driver_rig import Rig
 from lifecycle_msgs.msg import Transition
+from pty_board import wait_for
 from virtual_board import VirtualBoard
-from waiting import wait_for
 
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_driver.board import BoardStatus

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from faulty_board import FaultyBoard
-from waiting import wait_for
+from pty_board import wait_for
 
 from acts_core.frames import SampleFrame
 from acts_driver.board import BoardResult

@@ -14,7 +14,7 @@ import known_field
 import pytest
 from driver_rig import Rig, end_process, start_process
 from faulty_board import EARLY_NS, FaultyBoard
-from waiting import wait_for
+from pty_board import wait_for
 
 from acts_ros.messages import frame_of
 

@@ -10,8 +10,7 @@ import select
 import threading
 from pathlib import Path
 
-from pty_board import DEADLINE_S, PtyBoard, frame
-from waiting import wait_for
+from pty_board import DEADLINE_S, PtyBoard, frame, wait_for
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, cobs, encode_frame

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 from faulty_board import FaultyBoard, PlainDriver
-from waiting import wait_for
+from pty_board import wait_for
 
 pytestmark = pytest.mark.slow
 

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_share_directory
-from pty_board import PtyBoard, frame
+from pty_board import PtyBoard, frame, wait_for
 from serial.tools.list_ports_common import ListPortInfo
-from waiting import wait_for
 
 from acts_core.errors import PortError, SettingsError
 from acts_core.wire import StreamDecoder

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 import serial
-from pty_board import PtyBoard, frame
-from waiting import wait_for
+from pty_board import PtyBoard, frame, wait_for
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame

@@ -15,10 +15,9 @@ import pytest
 from driver_rig import Rig
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pty_board import frame
+from pty_board import frame, wait_for
 from recorded import DEFINITION, write_bag
 from rosbags.rosbag2 import StoragePlugin
-from waiting import wait_for
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme

@@ -10,15 +10,16 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import waiting
 from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite
 from hand_motors import AROUND_SPHERE
 from motor_bus import IDS, MotorBus
-from waiting import wait_for
 
 from acts_core.skin import layout
 from acts_sim.hand import HandTruth, TruthFollower
@@ -27,6 +28,7 @@ from acts_sim.shared import TimedRingReader
 
 pytestmark = pytest.mark.slow
 
+wait_for = partial(waiting.wait_for, timeout_s=15.0)
 PATCHES = [patch.name for patch in layout("leap_right").patches]
 
 

@@ -15,8 +15,7 @@ import pytest
 
 pytest.importorskip("rtde_control", reason="ur_rtde is not installed")
 
-from ur_simulator import Simulator
-from waiting import wait_for
+from ur_simulator import Simulator, wait_for
 
 pytestmark = pytest.mark.slow
 

@@ -18,8 +18,7 @@ from pathlib import Path
 
 import pytest
 from ur_process import HOOK_PORT
-from ur_simulator import Simulator
-from waiting import wait_for
+from ur_simulator import Simulator, wait_for
 
 from acts_core.robots import ur5e
 from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader
