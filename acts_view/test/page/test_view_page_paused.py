@@ -165,3 +165,24 @@ def test_a_skin_that_becomes_another_one_does_so_when_the_page_goes_on(
     page.locator("canvas.marks").first.focus()  # the space bar is for what has the focus
     page.keyboard.press(" ")
     expect(page.locator("[data-skin='/plate'] .shape")).to_contain_text("16 × 16 taxels")
+
+
+def test_what_came_last_in_a_pause_is_shown_when_the_page_goes_on_though_nothing_follows(
+    player: Player, open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    shown(player, 800)
+    page = opened(player, open_page)
+    page.focus("canvas.marks")
+    page.keyboard.press(" ")
+    expect(page.locator(".skin .pill")).to_have_text("paused")
+    shown(player, 500)
+    shown(player, 300, col=5)
+    # Told after it, so that it has come.
+    player.server.show_shape("/plate_2", SkinShape())
+    expect(page.locator(".skin")).to_have_count(2)
+    plate = page.locator("[data-skin='/plate']")
+    assert plate.locator("[data-number=peak]").inner_text() == "800"
+    page.keyboard.press(" ")
+    expect(plate.locator("[data-number=peak]")).to_have_text("300")
+    (pressed_at,) = (row for row in saved_table(page, "taxels", tmp_path) if row["counts"] != "0")
+    assert (pressed_at["row"], pressed_at["col"], pressed_at["counts"]) == (str(ROW), "5", "300")

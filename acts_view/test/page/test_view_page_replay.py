@@ -65,6 +65,30 @@ def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_
         shown.close()
 
 
+def test_where_one_goes_in_a_pause_of_the_page_is_shown_when_it_goes_on(
+    tmp_path: Path, open_page: Callable[..., Page]
+) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        beside = open_page(shown)
+        page.click("#replay button")
+        expect(page.locator("#replay button")).to_have_text("Play")
+        page.locator("#replay input").fill("0")
+        peak = page.locator("[data-number=peak]")
+        expect(peak).to_have_text(re.compile("^[23]..$"))
+        page.click("#pause")
+        page.locator("#replay input").fill("10")
+        # 900 counts from the seventh frame on, at 2 Hz; nothing more comes of what is held.
+        expect(beside.locator("[data-number=peak]")).to_have_text(re.compile("^[89]..$"))
+        expect(page.locator("#replay output")).to_have_text("10.0 of 20.0 s")
+        page.click("#pause")
+        expect(peak).to_have_text(re.compile("^[89]..$"))
+    finally:
+        shown.close()
+
+
 class Resized:
     """Two seconds of frames at 100 Hz with a press, the second one of an array of another size."""
 

@@ -70,6 +70,7 @@ export class Panel {
     this.numbers_ms = 0;
     this.isHeld = false;
     this.message = null;
+    this.latest = null; // that came while another one is held
     this.coming = null;
     this.drawing = null; // asked for, but not done yet
     this.element = document.createElement("article");
@@ -113,10 +114,11 @@ export class Panel {
     // What controls the skin is in messages too, and may go on without it.
     if (message.silent_s !== null) this.heard_ms = performance.now() - 1000 * message.silent_s;
     this.history.take(message);
-    if (this.isHeld) return;
-    this.message = message;
-    this.regions.take(message.hand);
-    this.view.setState(message);
+    if (this.isHeld) {
+      this.latest = message;
+      return;
+    }
+    this.#show(message);
     // With the next picture of the screen: where drawing takes longer than from one message to the next, messages would
     // pile up and ever older ones be shown. Of a page that nobody sees a browser makes no picture.
     this.drawing ??= requestAnimationFrame(() => this.#drawSkin());
@@ -125,7 +127,12 @@ export class Panel {
   /** Hold what is shown, or go on. */
   hold(isHeld) {
     this.isHeld = isHeld;
-    if (!isHeld && this.coming) this.describe(this.coming);
+    if (!isHeld) {
+      if (this.coming) this.describe(this.coming);
+      // Of a recording that is held, or a skin that has ended, no other follows.
+      if (this.latest) this.#show(this.latest);
+      this.latest = null;
+    }
     this.#drawSkin();
     this.plots.hold(isHeld);
     // The figures beside the picture that is held are its own.
@@ -168,6 +175,13 @@ export class Panel {
     this.element.dataset.silent = String(state === "silent");
     this.plots.draw();
     if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
+  }
+
+  /** Have a message drawn next. */
+  #show(message) {
+    this.message = message;
+    this.regions.take(message.hand);
+    this.view.setState(message);
   }
 
   /** Whether the skin itself has said something to this server. */
