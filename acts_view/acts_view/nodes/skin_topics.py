@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -81,6 +82,17 @@ _TOPICS = {
 # All of them come several times a second; as of the diagnostics on the page.
 _STALE_S = 3.0
 
+_NOTHING = Frame()
+# Of what comes beside images and contacts: which values of `Frame` are then as if nothing had come.
+_BESIDE: dict[str, dict[str, Any]] = {
+    "confidence": {"confidence": _NOTHING.confidence},
+    "age": {"age_s": _NOTHING.age_s},
+    "contacts": {"contact_numbers": _NOTHING.contact_numbers, "contacts": _NOTHING.contacts},
+    "regions": {"regions": _NOTHING.regions},
+}
+# These belong to an image, and are as old as it may be.
+_OF_IMAGE = ("confidence", "age")
+
 
 class SkinTopics:
     """Subscribes to what a skin publishes; one call at a time, from the executor's thread, `take` from any.
@@ -100,6 +112,8 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
+        # When each of `_BESIDE` came last, by the monotonic clock [s].
+        self._came_s: dict[str, float] = {}
         # Of each topic of `_TOPICS`, what was said last, and when by the monotonic clock [s].
         self._told: dict[str, tuple[float, dict[str, Any]]] = {}
         self._is_teller_gone = False
@@ -152,10 +166,12 @@ class SkinTopics:
         self._is_teller_gone = False
         now_s = time.monotonic()
         self._told |= {topic: (now_s, _TOPICS[topic].read(message)) for topic, message in told.items()}
-        old = self._frame
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
         age_s = _pixels(images["age"], "32FC1")
+        came = {"confidence": confidence, "age": age_s, "contacts": contacts, "regions": regions}
+        self._came_s |= {what: now_s for what, one in came.items() if one is not None}
+        old = self._without_stale(now_s, is_image_new=image is not None, is_touch_new=bool(samples))
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
         self._frame = Frame(
             stamp_s=old.stamp_s if stamp_s is None else stamp_s,
@@ -173,6 +189,17 @@ class SkinTopics:
             object=self._known("object"),
         )
         return self._frame, samples
+
+    def _without_stale(self, now_s: float, *, is_image_new: bool, is_touch_new: bool) -> Frame:
+        """What was shown, without what has not come for long beside an image or a contact that is new.
+
+        A skin launched again may publish less than before. Of one that is silent all stays, as of one moment.
+        """
+        for what in [what for what, came_s in self._came_s.items() if came_s < now_s - _STALE_S]:
+            if is_image_new or (is_touch_new and what not in _OF_IMAGE):
+                del self._came_s[what]
+                self._frame = replace(self._frame, **_BESIDE[what])
+        return self._frame
 
     def _known(self, place: str) -> dict[str, Any]:
         """What is known of a hand, a ball or an object."""

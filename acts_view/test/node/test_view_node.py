@@ -172,6 +172,40 @@ def test_contacts_that_come_many_in_a_message_are_all_plotted(bench: Bench) -> N
     np.testing.assert_allclose(bench.headers["frame"]["touch"][2:4], [2.0, 300.0])
 
 
+def test_what_no_longer_comes_beside_new_images_is_not_shown_with_them(bench: Bench) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    confidence = bench.skin.create_publisher(Image, "view/confidence", qos.VIEW)
+    age = bench.skin.create_publisher(Image, "view/age", qos.VIEW)
+    contacts = bench.skin.create_publisher(Contacts, "view/contacts", qos.VIEW)
+    regions = bench.skin.create_publisher(RegionContacts, "regions", qos.STREAM)
+    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
+    sure = Image(height=2, width=2, encoding="mono8", step=2, data=array("B", bytes(4)))
+    ages = Image(height=2, width=2, encoding="32FC1", step=8, data=array("B", bytes(16)))
+
+    def play() -> None:
+        image.publish(picture)
+        confidence.publish(sure)
+        age.publish(ages)
+        contacts.publish(Contacts(contacts=[TrackedContact(number=7)]))
+        palm = RegionContact("palm", "palm_lower", 3, 1.25)
+        regions.publish(write_regions(RegionsFields(0, "hand", 1, [palm])))
+        bench.press(1.0)
+
+    def has(*names: str) -> bool:
+        frame = bench.headers.get("frame", {"regions": []})
+        shown = {"confidence", "age"} & set(bench.arrays)
+        shown |= {"contacts"} if len(bench.arrays.get("contact_numbers", ())) else set()
+        shown |= {"regions"} if frame["regions"] else set()
+        return shown == set(names) and "image" in bench.arrays
+
+    with bench.connect() as client:
+        bench.until(lambda: has("confidence", "age", "contacts", "regions"), client, play)
+        bench.destroy([confidence, age, contacts, regions])
+        # As of one moment with the last image: without another one both of its arrays stay.
+        bench.until(lambda: has("confidence", "age"), client, lambda: bench.press(1.0))
+        bench.until(has, client, lambda: image.publish(picture))
+
+
 @pytest.mark.parametrize(
     ("topic", "kind", "profile"),
     [
