@@ -30,6 +30,8 @@ class BagRecording:
     ----------
     note : str or None
         For a person: what is wrong with the bag; None where it is whole.
+    first_ns : int
+        Stamp of the first frame, whole microseconds.
 
     Raises
     ------
@@ -57,7 +59,7 @@ class BagRecording:
             raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
         # Of the topic, not of the bag, in which others may have begun before it.
         self._begin_ns = first[1]
-        next(self.frames())
+        self.first_ns = 1000 * next(self.frames()).board_us
 
     @property
     def topic(self) -> str:

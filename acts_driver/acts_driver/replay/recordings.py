@@ -215,6 +215,11 @@ class RecordedSamples:
 
     Needed are `indices` and `counts` (n, m), and either `stamp_ns` (n,) or `rate_hz`; optional are `sequence` (n,),
     `duration_us`, `scheme` (a name or number), `rows` and `cols` (32).
+
+    Attributes
+    ----------
+    first_ns : int or None
+        `stamp_ns` of the first frame; None where the file has none.
     """
 
     def __init__(
@@ -226,6 +231,7 @@ class RecordedSamples:
         size: tuple[int, int],
         scheme: Scheme,
         duration_us: int,
+        first_ns: int | None = None,
     ) -> None:
         self._indices = indices
         self._counts = counts
@@ -234,6 +240,7 @@ class RecordedSamples:
         self._size = size
         self._scheme = scheme
         self._duration_us = duration_us
+        self.first_ns = first_ns
 
     @classmethod
     def load(cls, path: Path) -> RecordedSamples:
@@ -273,6 +280,7 @@ class RecordedSamples:
             size,
             scheme,
             _whole(path, content, "duration_us", round(indices.shape[1] * MEASUREMENT_US), 0, 2**32 - 1),
+            int(content["stamp_ns"][0]) if "stamp_ns" in content else None,
         )
 
     @property

@@ -109,7 +109,9 @@ class RecordedSource:
         self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._name = name
         self._zero_us = first.board_us
-        self._begin_ns = time.time_ns()
+        # Full frames have no time of their own, and a recording that is simulated need not.
+        first_ns = getattr(recording, "first_ns", None)
+        self._begin_ns = time.time_ns() if first_ns is None else first_ns
         self.recording = recording
         self._baselines, self._baseline_problem = read_baselines(first.rows, first.cols)
         self._baseline_times_us = [one.time_ns // _NS_PER_US for one in self._baselines]

@@ -6,16 +6,17 @@
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from test_view_local import Shown, write_frames
+from test_view_local import Shown, write_bag, write_frames
 from view_browser import expect, needs_browser
-from view_player import Player, pressed
+from view_player import Player, pressed, saved, saved_table
 from waiting import wait_for
 
 from acts_core.errors import ViewRequestError
@@ -87,6 +88,40 @@ def test_where_one_goes_in_a_pause_of_the_page_is_shown_when_it_goes_on(
         expect(peak).to_have_text(re.compile("^[89]..$"))
     finally:
         shown.close()
+
+
+def test_what_is_saved_of_a_bag_has_the_time_of_its_stamps(tmp_path: Path, open_page: Callable[..., Page]) -> None:
+    # A frame a second, from 10 s to 14 s.
+    source, name = open_recorded(write_bag(tmp_path / "bag", {}), [], "square")
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        expect(page.locator("#replay button")).to_have_text("Play")
+        expect(page.locator("[data-number=rate]")).to_have_text("1.0")
+        page.select_option("#window", "10")
+        times_s = [float(row["time_s"]) for row in saved_table(page, "plots", tmp_path)]
+        # The interval of the last frame is not over; each is 8 ms long.
+        assert times_s == pytest.approx([10.0, 11.0, 12.0, 13.0], abs=0.008)
+        assert saved(page, "taxels", tmp_path).name == "plate_1970-01-01T00-00-14-000_taxels.csv"
+    finally:
+        shown.close()
+
+
+def test_samples_of_a_file_have_the_time_of_its_stamps_where_it_has_some(tmp_path: Path) -> None:
+    samples: dict[str, Any] = {"indices": np.tile(np.arange(3), (4, 1)), "counts": np.ones((4, 3), int)}
+    stamp_ns = 1_700_000_000_000_000_000 + 1_000_000 * np.arange(4)
+    np.savez(tmp_path / "stamped.npz", stamp_ns=stamp_ns, **samples)
+    np.savez(tmp_path / "plain.npz", rate_hz=1000.0, **samples)
+    stamps_s = {}
+    began_s = time.time()
+    for kind in ("stamped", "plain"):
+        source, _ = open_recorded(tmp_path / f"{kind}.npz", [], "square")
+        source._take(list(source.recording.frames()))
+        taken = source.skin.newest()
+        assert taken is not None
+        stamps_s[kind] = taken[0].stamp_s
+    assert stamps_s["stamped"] == pytest.approx(1_700_000_000.003, abs=1e-5)
+    assert began_s <= stamps_s["plain"] <= time.time() + 0.003
 
 
 class Resized:
