@@ -10,9 +10,15 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from test_view_codec import decode
+from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from acts_core.errors import ViewRequestError
-from acts_view.web.requests import Request, read_request
+from acts_view.web.requests import STOPS, Answer, Request, read_request
+from acts_view.web.server import MAX_UNANSWERED, ViewServer
+
+DEADLINE_S = 30.0
 
 
 @given(st.text() | st.binary() | st.builds(json.dumps, st.dictionaries(st.text(), st.integers() | st.text())))
@@ -38,3 +44,33 @@ def test_a_request_is_read_as_it_is_and_an_odd_one_refused() -> None:
     ):
         with pytest.raises(ViewRequestError):
             read_request(text)
+
+
+def test_what_stops_something_is_handed_on_though_other_requests_wait() -> None:
+    waiting: list[tuple[Request, Answer]] = []
+    server = ViewServer(
+        "127.0.0.1",
+        0,
+        on_clients=lambda _: None,
+        log=print,
+        on_request=lambda request, answer: waiting.append((request, answer)),
+    )
+    origin = server.address.url.rstrip("/")
+    try:
+        with connect(f"{origin.replace('http', 'ws')}/stream", origin=Origin(origin), compression=None) as page:
+            asked = ["tare"] * MAX_UNANSWERED + sorted(STOPS) + ["calibrate"]
+            for number, do in enumerate(asked):
+                page.send(json.dumps({"id": number, "do": do}))
+            # Only the last is refused, which comes behind all others.
+            refused, _ = decode(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+            assert (refused["id"], refused["done"]) == (len(asked) - 1, False)
+            assert [request.do for request, _ in waiting] == asked[:-1]
+            # The answer to a stop is none that was waited for by the others.
+            waiting[-1][1](True, "stopped")
+            answered, _ = decode(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+            assert answered["text"] == "stopped"
+            page.send('{"id":90,"do":"calibrate"}')
+            refused, _ = decode(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+            assert (refused["id"], refused["done"]) == (90, False)
+    finally:
+        server.close()

@@ -23,7 +23,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
 from acts_view.recording.recording import Recording
-from acts_view.web.requests import Answer, Request
+from acts_view.web.requests import STOPS, Answer, Request
 
 TRIGGERS = {
     "tare": "driver/tare",
@@ -85,9 +85,9 @@ class Control:
         Raises
         ------
         ViewRequestError
-            Too much waits already.
+            Too much waits already, and it is none of `STOPS`.
         """
-        if len(self._requests) + len(self._calls) >= _WAITING_MAX:
+        if request.do not in STOPS and len(self._requests) + len(self._calls) >= _WAITING_MAX:
             raise ViewRequestError(f"{_WAITING_MAX} requests wait for the nodes already; try again")
         self._requests.append((request, answer))
 

@@ -16,6 +16,9 @@ Answer = Callable[[bool, str], None]
 
 Number = float | int
 
+STOPS = frozenset({"stop_balancing", "stop_grasp", "stop_recording"})
+"""What is never refused because other requests wait for their answers."""
+
 _KEYS = {"id", "do", "skin", "name", "value"}
 _LONGEST = 200
 _LARGEST = 1e15

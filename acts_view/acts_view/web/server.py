@@ -30,7 +30,7 @@ from acts_view.web.codec import encode
 from acts_view.web.connections import FailureLog, LimitedConnection
 from acts_view.web.display import Display, Reader
 from acts_view.web.page_files import read_page
-from acts_view.web.requests import RequestHandler, read_request
+from acts_view.web.requests import STOPS, RequestHandler, read_request
 
 STREAM_PATH = "/stream"
 FILES_PATH = "/recordings/"
@@ -84,7 +84,7 @@ class _Client:
     """A page.
 
     `stalled_s`: since when it has taken nothing of what it was sent; `waiting_bytes`: what it had still to take at
-    the last look; `unanswered`: requests that are.
+    the last look; `unanswered`: requests that are, without `STOPS`.
     """
 
     connection: ServerConnection
@@ -321,16 +321,17 @@ class ViewServer:
         if self._on_request is None:
             self._answer_to(client, request.number, False, READ_ONLY)
             return
-        if client.unanswered >= MAX_UNANSWERED:
+        counted = 0 if request.do in STOPS else 1
+        if counted and client.unanswered >= MAX_UNANSWERED:
             self._answer_to(client, request.number, False, f"{MAX_UNANSWERED} requests wait for their answers already")
             return
-        client.unanswered += 1
+        client.unanswered += counted
 
         def answer(is_done: bool, sentence: str) -> None:
             self._loop.call_soon_threadsafe(answer_here, is_done, sentence)
 
         def answer_here(is_done: bool, sentence: str) -> None:
-            client.unanswered -= 1
+            client.unanswered -= counted
             self._answer_to(client, request.number, is_done, sentence)
 
         try:

@@ -26,6 +26,7 @@ from websockets.typing import Origin
 
 from acts_msgs.msg import Contact
 from acts_ros import qos
+from acts_view.nodes import control
 from acts_view.nodes.view_node import ViewNode
 
 if TYPE_CHECKING:
@@ -161,6 +162,20 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
         assert (first["id"], first["done"]) == (64, False)
         assert "wait for their answers" in first["text"]
     assert bench.called == ["driver/tare"]
+
+
+def test_a_stop_is_done_where_the_node_refuses_all_else_for_what_waits(
+    begin: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = begin(control=True)
+    monkeypatch.setattr(control, "_WAITING_MAX", 0)
+    with bench.connect() as client:
+        until(client, lambda header: ["stop_grasp", "/hand"] in header.get("offers", []))
+        client.send('{"id":1,"do":"grasp","skin":"/hand"}')
+        client.send('{"id":2,"do":"stop_grasp","skin":"/hand"}')
+        assert "requests wait" in until(client, lambda header: header.get("id") == 1)["text"]
+        assert until(client, lambda header: header.get("id") == 2)["done"]
+    assert bench.called == ["hand_reflexes/stop"]
 
 
 def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench]) -> None:
