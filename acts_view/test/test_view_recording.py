@@ -237,6 +237,27 @@ def test_a_person_records_and_downloads(
     assert sequences(tmp_path / name)
 
 
+@needs_browser
+def test_a_person_records_and_downloads_by_keys(begin: Callable[..., Bench], open_page: Callable[..., Page]) -> None:
+    page = open_page(begin())
+    section = page.locator("#recording")
+    button, line = section.locator(".group button"), section.locator(".answer")
+    button.focus()
+    page.keyboard.press(" ")
+    expect(line).to_contain_text(" messages, 0 lost")
+    page.keyboard.press(" ")
+    expect(button).to_have_text("Record")
+    expect(line).to_contain_text("messages in")
+    expect(button).to_be_focused()
+    expect(page.locator("#pause")).to_have_text("Pause")
+    download = section.get_by_text("Download")
+    download.focus()
+    with page.expect_download():
+        page.keyboard.press("Enter")
+    expect(download).to_be_focused()
+    expect(download).to_have_attribute("aria-disabled", "false")
+
+
 class NoFeed:
     """Fills a bag with nothing."""
 

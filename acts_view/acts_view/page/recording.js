@@ -18,7 +18,7 @@ export class Recording {
     this.isOn = false;
     this.key = "";
     this.note = "";
-    this.button.onclick = () => this.#toggle();
+    onceAtATime(this.button, () => this.#toggle());
   }
 
   /** The newest of the server; hidden where it does not record for pages. */
@@ -45,9 +45,7 @@ export class Recording {
   }
 
   async #toggle() {
-    this.button.disabled = true;
     const { done, text } = await ask(this.isOn ? "stop_recording" : "record");
-    this.button.disabled = false;
     this.#tell(text, done);
   }
 
@@ -58,8 +56,7 @@ export class Recording {
     button.textContent = `Download ${name}`;
     const size = document.createElement("span");
     size.textContent = megabytes(bytes);
-    button.onclick = async () => {
-      button.disabled = true;
+    onceAtATime(button, async () => {
       try {
         const pieces = await fetchFile(`recordings/${name}`, (sent) => { size.textContent = `${megabytes(sent)} of ${megabytes(bytes)}`; });
         save(name, pieces, "application/octet-stream");
@@ -67,8 +64,7 @@ export class Recording {
       } catch (error) {
         size.textContent = error.message;
       }
-      button.disabled = false;
-    };
+    });
     item.append(button, size);
     return item;
   }
@@ -77,4 +73,14 @@ export class Recording {
     this.line.dataset.done = String(done);
     setText(this.line, text);
   }
+}
+
+/** Let a button do something that takes a while, and nothing meanwhile. A disabled one would lose the focus of the keys. */
+function onceAtATime(button, act) {
+  button.onclick = async () => {
+    if (button.getAttribute("aria-disabled") === "true") return;
+    button.setAttribute("aria-disabled", "true");
+    await act();
+    button.setAttribute("aria-disabled", "false");
+  };
 }
