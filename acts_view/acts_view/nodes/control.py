@@ -138,7 +138,16 @@ class Control:
             self._call(f"{request.skin}/{TRIGGERS[request.do]}", Trigger, Trigger.Request(), answer, _of_trigger)
         elif request.do == "set":
             asked = SetParameters.Request(parameters=[_parameter(request)])
-            self._call(f"{request.skin}/{_SET}", SetParameters, asked, answer, _of_set)
+
+            def read(response: SetParameters.Response) -> tuple[bool, str]:
+                is_set, sentence = _of_set(response)
+                if is_set:
+                    # What is known is of before, and so may be what is being answered.
+                    self._settings.pop(request.skin, None)
+                    self._ask_settings(request.skin)
+                return is_set, sentence
+
+            self._call(f"{request.skin}/{_SET}", SetParameters, asked, answer, read)
         elif request.do == "record":
             answer(True, self._recording.start())
         elif request.do == "stop_recording":
@@ -180,7 +189,8 @@ class Control:
 
         def on_done(done: Future[Any]) -> None:
             response = done.result()
-            if response is not None and len(response.values) == len(_PARAMETERS):
+            is_newest = self._asked.get(driver) is done
+            if is_newest and response is not None and len(response.values) == len(_PARAMETERS):
                 values = [
                     one.string_value if one.type == ParameterType.PARAMETER_STRING else one.integer_value
                     for one in response.values

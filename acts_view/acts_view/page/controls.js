@@ -87,16 +87,19 @@ export class Controls {
     refused.className = "refused";
     refused.dataset.refused = name;
     refused.setAttribute("role", "status");
-    // What is being typed stays as it is until it has been answered.
+    // What is being typed stays as it is until it has been answered, also where one has gone on meanwhile.
+    let asked = 0;
     field.oninput = () => { field.dataset.typed = ""; };
-    field.onblur = () => { delete field.dataset.typed; };
+    field.onblur = () => { if (!asked) delete field.dataset.typed; };
     field.onchange = async () => {
       const { value: text } = field;
       const value = name === "scheme" ? field.value : field.valueAsNumber;
       refused.textContent = name === "scheme" ? "" : refusal(value, least, most);
       if (refused.textContent) return;
+      asked += 1;
       await this.#ask(`${title}, ${nameOf(of)}`, "set", { skin: of, name, value });
-      if (field.value === text) delete field.dataset.typed;
+      asked -= 1;
+      if (!asked && (field.value === text || field !== document.activeElement)) delete field.dataset.typed;
     };
     label.append(field);
     const both = document.createElement("span");

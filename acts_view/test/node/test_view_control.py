@@ -197,6 +197,17 @@ def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench])
         assert header_where(client, lambda header: header.get("id") == 2)["done"]
 
 
+def test_what_was_set_is_what_is_told_from_then_on(begin: Callable[..., Bench]) -> None:
+    bench = begin(control=True)
+    with bench.connect() as client:
+        until(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 55)
+        for value in (60, 61, 62):
+            client.send(json.dumps({"id": value, "do": "set", "skin": "/plate", "name": "m", "value": value}))
+            assert until(client, lambda header, value=value: header.get("id") == value)["done"]  # type: ignore[misc]
+            told = until(client, lambda header: "/plate" in header.get("settings", {}))
+            assert told["settings"]["/plate"]["m"] == value
+
+
 @needs_browser
 def test_every_button_calls_its_service_and_shows_the_answer(
     begin: Callable[..., Bench], open_page: Callable[..., Page]

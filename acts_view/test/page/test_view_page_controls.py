@@ -13,6 +13,7 @@ from view_browser import expect, needs_browser
 from view_player import Player
 
 from acts_view.nodes.control import RANGES
+from acts_view.web.requests import Answer
 from acts_view.web.server import READ_ONLY
 
 if TYPE_CHECKING:
@@ -120,3 +121,26 @@ def test_the_limits_are_those_of_the_server(play: Callable[..., Player], open_pa
         field = page.locator(f"#controls [data-name={name}]")
         expect(field).to_have_attribute("min", str(least))
         expect(field).to_have_attribute("max", str(most))
+
+
+def test_a_field_that_one_has_left_keeps_its_value_until_the_answer(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = play()
+    waiting: list[Answer] = []
+    monkeypatch.setattr(player.server, "_on_request", lambda _request, answer: waiting.append(answer))
+    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "threshold_counts": 40}}}
+    page = open_page(player)
+    field, other = (page.locator(f"#controls [data-name={name}]") for name in ("m", "threshold_counts"))
+    expect(field).to_have_value("55")
+    field.fill("60")
+    page.keyboard.press("Tab")
+    expect(other).to_be_focused()
+    # Told of later, so that the status has come, which still has the old value.
+    player.status["settings"] = {"/plate": {"m": 55, "threshold_counts": 41}}
+    expect(other).to_have_value("41")
+    assert field.input_value() == "60"
+    (answer,) = waiting
+    answer(False, "too busy")
+    expect(page.locator("#controls > .answer")).to_contain_text("too busy")
+    expect(field).to_have_value("55")
