@@ -39,6 +39,21 @@ HAS_DOTS = """(plot) => {
   return dots >= 4 && dots <= 6;
 }"""
 
+# Keeps the plots that are made, and tells of the first, of force, how many points are shown, from where to where.
+KEEP = """
+;window.made = [];
+{
+  const made = uPlot;
+  uPlot = function (...given) { const one = new made(...given); window.made.push(one); return one; };
+  Object.assign(uPlot, made);
+}
+"""
+POINTS = """() => {
+  const [{ data: [times], scales: { x: { min, max } } }] = window.made;
+  const shown = times.filter((time) => time >= min && time <= max);
+  return [shown.length, min - shown[0], shown[shown.length - 1] - max, times[0] <= min];
+}"""
+
 
 def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
     play: Callable[..., Player], open_page: Callable[..., Page]
@@ -89,3 +104,32 @@ def test_a_skin_that_is_slow_has_plots_and_a_rate(play: Callable[..., Player], o
     expect(page.locator("[data-number=rate]")).to_have_text("1.0")
     for plot in ("force", "latency"):
         page.wait_for_function(HAS_DOTS, arg=plot)
+
+
+def test_a_part_of_a_plot_shows_all_that_is_known_of_it(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play(())
+    player.server.show_shape("/plate", SkinShape())
+    now_s = time.time()
+    name, frame, _ = pressed("/plate", now_s)
+    samples = [Sample(now_s - 58 + 0.004 * number, 0.5, 0.5, 0) for number in range(14_500)]
+    player.server.show_frame(name, frame, samples)
+    page = open_page(player, is_live=False)
+    page.route(
+        "**/uPlot.iife.min.js",
+        lambda route: route.fulfill(body=route.fetch().text() + KEEP, content_type="text/javascript"),
+    )
+    page.reload()
+    expect(page.locator("[data-number=rate]")).to_have_text("250")
+    page.select_option("#window", "60")
+    # Of more than a pixel each 8 ms.
+    for keys, intervals in (("+++++", 1.875 / 0.008), ("<<<<", 1.875 / 0.008), ("++++", 0.117 / 0.008)):
+        for key in keys:
+            page.keyboard.press(key)
+        page.wait_for_function(f"(least) => ({POINTS})()[0] >= least", arg=0.95 * intervals - 1)
+        points, after_s, before_s, is_at_edge = page.evaluate(POINTS)
+        assert points <= intervals + 1
+        assert -0.016 < after_s <= 0
+        assert -0.016 < before_s <= 0
+        assert is_at_edge

@@ -62,13 +62,16 @@ export class History {
 
   /**
    * Smallest and largest value of a column (its minimum; the maximum is the next one) for each of at most `pixels`
-   * steps of the last `length_s`; as [times, maxima, minima], times in seconds before the newest, null where there is a gap.
+   * steps of the last `length_s`; as [times, maxima, minima], times in seconds before the newest, null where there is a
+   * gap. Or of `length_s` that end at `end_s`, with a step more on both sides, so that lines reach the edges.
    */
-  extremes(column, length_s, pixels) {
+  extremes(column, length_s, pixels, end_s = null) {
     const step_s = INTERVAL_S * Math.max(1, Math.ceil(length_s / Math.max(pixels, 1) / INTERVAL_S));
     const [times, highs, lows] = [[], [], []];
     let last = null;
-    for (const row of this.#last(length_s)) {
+    const until_s = this.newest_s + (end_s ?? 0) + step_s;
+    for (const row of this.#last(end_s === null ? length_s : length_s - end_s + step_s)) {
+      if (row[0] > until_s) break;
       // By absolute time, so that a value stays in its step while the plot moves.
       const number = Math.floor((row[0] + 0.001) / step_s);
       const [low, high] = [row[column], row[column + 1]];

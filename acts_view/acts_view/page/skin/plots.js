@@ -12,10 +12,10 @@ const EVERY_MS = 100;
 const LEAST_S = 0.05; // of a zoom: some six intervals of the history
 
 const KINDS = [
-  { name: "force", title: "Force", unit: "N", least: 1, read: (history, length, pixels) => history.extremes(FORCE, length, pixels) },
-  { name: "latency", title: "Latency", unit: "ms", least: 1, read: (history, length, pixels) => history.extremes(LATENCY, length, pixels) },
-  { name: "rate", title: "Rate", unit: "Hz", least: 100, read: (history, length) => scaled(history.sums(FRAMES, length), 1 / BIN_S) },
-  { name: "lost", title: "Lost frames", unit: "", least: 4, isBars: true, read: (history, length) => history.sums(LOST, length) },
+  { name: "force", title: "Force", unit: "N", least: 1, read: (history, length, pixels, end) => history.extremes(FORCE, length, pixels, end) },
+  { name: "latency", title: "Latency", unit: "ms", least: 1, read: (history, length, pixels, end) => history.extremes(LATENCY, length, pixels, end) },
+  { name: "rate", title: "Rate", unit: "Hz", least: 100, read: (history, length, pixels, end) => scaled(history.sums(FRAMES, length - (end ?? 0)), 1 / BIN_S) },
+  { name: "lost", title: "Lost frames", unit: "", least: 4, isBars: true, read: (history, length, pixels, end) => history.sums(LOST, length - (end ?? 0)) },
 ];
 
 function scaled([times, values], factor) {
@@ -32,7 +32,7 @@ export class Plots {
     this.held = null;
     this.last_ms = 0;
     this.length_s = 0;
-    this.isZoomed = false;
+    this.part = null; // of the window, from and to [s], where one is zoomed
     this.onZoom = onZoom;
     this.plots = KINDS.map((kind) => {
       const figure = document.createElement("figure");
@@ -57,26 +57,26 @@ export class Plots {
   /** The rows of the history that are shown, without what is out of the window or of a zoom. */
   shown() {
     const history = this.held ?? this.history;
-    const { min, max } = this.plots[0].plot.scales.x;
-    return history.rows.filter(([time_s]) => time_s - history.newest_s >= min && time_s - history.newest_s <= max);
+    const [from_s, to_s] = this.#shown;
+    return history.rows.filter(([time_s]) => time_s - history.newest_s >= from_s && time_s - history.newest_s <= to_s);
   }
 
   /** Show the whole window again. */
   reset() {
-    this.isZoomed = false;
+    this.part = null;
     this.draw(true);
   }
 
   /** Show a part `share` as long as the present one, with the same end. */
   zoom(share) {
-    const { min, max } = this.plots[0].plot.scales.x;
-    this.#showPart(max, Math.max(share * (max - min), LEAST_S));
+    const [from_s, to_s] = this.#shown;
+    this.#showPart(to_s, Math.max(share * (to_s - from_s), LEAST_S));
   }
 
   /** Show what is before or, above 0, after a zoom: `share` of its length further. */
   move(share) {
-    const { min, max } = this.plots[0].plot.scales.x;
-    if (this.isZoomed) this.#showPart(max + share * (max - min), max - min);
+    const [from_s, to_s] = this.#shown;
+    if (this.part) this.#showPart(to_s + share * (to_s - from_s), to_s - from_s);
   }
 
   /** Draw, not more often than one can see. */
@@ -87,13 +87,14 @@ export class Plots {
     const history = this.held ?? this.history;
     const length_s = Number(settings.window);
     // Another window was asked for: all of it, since what was zoomed may not be in it.
-    if (length_s !== this.length_s) this.isZoomed = false;
+    if (length_s !== this.length_s) this.part = null;
     this.length_s = length_s;
+    const [from_s, to_s] = this.#shown;
     for (const { kind, plot } of this.plots) {
-      const data = kind.read(history, length_s, plot.bbox.width / (window.devicePixelRatio || 1));
-      plot.setData(data, false);
-      if (!this.isZoomed) plot.setScale("x", { min: -length_s, max: 0 });
-      else plot.redraw();
+      // Of a part more than of the whole: each of its pixels is a shorter time.
+      const pixels = plot.bbox.width / (window.devicePixelRatio || 1);
+      plot.setData(kind.read(history, to_s - from_s, pixels, this.part && to_s), false);
+      plot.setScale("x", { min: from_s, max: to_s });
     }
   }
 
@@ -101,6 +102,11 @@ export class Plots {
   destroy() {
     for (const { plot } of this.plots) plot.destroy();
     this.plots = [];
+  }
+
+  /** From when to when, in seconds before the newest. */
+  get #shown() {
+    return this.part ?? [-Number(settings.window), 0];
   }
 
   /** As much of a part as is in the window; all of the window is no zoom. */
@@ -115,9 +121,9 @@ export class Plots {
   }
 
   #show(from_s, to_s) {
-    this.isZoomed = true;
     this.onZoom();
-    for (const { plot } of this.plots) plot.setScale("x", { min: from_s, max: to_s });
+    this.part = [from_s, to_s];
+    this.draw(true);
   }
 
   #resize() {
