@@ -205,6 +205,19 @@ def test_a_recording_ends_at_its_size_and_with_the_program(begin: Callable[..., 
         assert bag.note is None
 
 
+def test_as_many_messages_are_told_of_as_are_in_the_bag(begin: Callable[..., Bench], tmp_path: Path) -> None:
+    bench = begin(record_max_mb=0.002)
+    with bench.connect() as client:
+        page = Asker(client)
+        assert page.ask("record")[0]
+        # It is full long before it ends.
+        state = page.recording(lambda state: not state.get("on", True) and bool(state["note"]))
+    (path,) = (tmp_path / "recordings").iterdir()
+    with open_bag(path) as bag:
+        count = len(list(bag.messages(list(bag.topics()))))
+    assert f"; {count} messages in " in state["note"]
+
+
 def test_a_message_that_comes_after_the_end_is_left_out(tmp_path: Path) -> None:
     bag = BoundedBag(tmp_path / "bag", 1000)
     topic = bag.add_topic("/a", "std_msgs/msg/String", *Definitions().describe("std_msgs/msg/String"), [])

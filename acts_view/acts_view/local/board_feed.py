@@ -43,7 +43,6 @@ class BoardFeed:
         self._baseline = bag.add_topic(f"{name}/baseline", base, *definitions.describe(base), to_bag([qos.LATCHED]))
         self._count_lost = count_lost
         self._lost_before = count_lost()
-        self.messages = 0
         if baseline is not None:
             self.set_baseline(baseline)
 
@@ -56,7 +55,6 @@ class BoardFeed:
         """Write frames, each with its stamp [ns]; from one thread."""
         for frame, stamp_ns in frames:
             self._bag.write(self._samples, serialize_message(self._message.fill(frame, stamp_ns)))
-        self.messages += len(frames)
 
     def set_baseline(self, baseline: Baseline) -> None:
         """Write a new one."""

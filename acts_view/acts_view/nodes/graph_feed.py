@@ -34,11 +34,6 @@ class GraphFeed:
         self.step()
 
     @property
-    def messages(self) -> int:
-        """See `Feed`."""
-        return sum(record.received for record in self._recorder.records.values())
-
-    @property
     def lost(self) -> int:
         """See `Feed`."""
         return sum(record.lost or 0 for record in self._recorder.records.values())

@@ -28,6 +28,8 @@ class BoundedBag(BagWriter):
         super().__init__(path, "acts view")
         self._bytes_max = bytes_max
         self._lock = threading.Lock()
+        self.messages = 0
+        """How many have been written."""
         self.written_bytes = 0
         self.problem = ""
         """Why nothing is written any more; empty where all is well."""
@@ -45,6 +47,7 @@ class BoundedBag(BagWriter):
             except RecordingError as error:
                 self.problem = str(error)
                 return
+            self.messages += 1
             self.written_bytes += len(data)
 
     def flush(self) -> None:

@@ -31,10 +31,6 @@ class Feed(Protocol):
     """Fills a bag from its making until `close`."""
 
     @property
-    def messages(self) -> int:
-        """How many have come."""
-
-    @property
     def lost(self) -> int:
         """How many are known to be missing."""
 
@@ -166,7 +162,7 @@ class Recording:
                 "name": present.name,
                 "elapsed_s": time.monotonic() - present.began_s,
                 "bytes": present.bag.written_bytes,
-                "messages": present.feed.messages,
+                "messages": present.bag.messages,
                 "lost": present.feed.lost,
             }
         return told
@@ -181,7 +177,7 @@ class Recording:
         except RecordingError as error:
             reason = reason or str(error)
         elapsed_s = time.monotonic() - present.began_s
-        messages, lost = present.feed.messages, present.feed.lost
+        messages, lost = present.bag.messages, present.feed.lost
         what = f"{counted(messages, 'message')} in {elapsed_s:.1f} s, {lost} lost, in {present.bag.path}"
         if not messages:
             what = f"nothing came in {elapsed_s:.1f} s; the bag {present.bag.path} is empty"
