@@ -8,11 +8,12 @@ from __future__ import annotations
 import json
 import shutil
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from datetime import datetime, tzinfo
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -27,10 +28,14 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
 import acts_view.recording.recording
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver.baseline import Baseline, BaselineSource
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros import qos
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
+from acts_view.local import board_feed
+from acts_view.local.board_feed import BoardFeed
 from acts_view.nodes.view_node import ViewNode
 from acts_view.recording.bounded_bag import BoundedBag
 from acts_view.recording.recording import Recording
@@ -317,6 +322,31 @@ def test_a_recording_whose_folder_is_removed_ends_and_says_so(tmp_path: Path) ->
     # It is made again.
     recording.start()
     recording.close()
+
+
+def test_of_a_board_no_messages_are_made_after_a_recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    feeds: list[BoardFeed] = []
+
+    def feed(_skins: Sequence[str], bag: BoundedBag) -> BoardFeed:
+        feeds.append(BoardFeed("/plate", None, lambda: 0, bag))
+        return feeds[-1]
+
+    made: list[object] = []
+    monkeypatch.setattr(board_feed, "serialize_message", lambda message: made.append(message) or b"")  # type: ignore[func-returns-value]
+    recording = Recording(tmp_path, 1_000_000, lambda: ["/plate"], feed, lambda *_: None)
+    recording.start()
+    indices = np.zeros(1, np.uint16)
+    frame = SampleFrame(0, 0, 0, Scheme.RASTER, 2, 2, 0, indices, indices)
+    baseline = Baseline(
+        np.zeros((2, 2), np.float32), np.ones((2, 2), np.float32), np.ones((2, 2), bool), BaselineSource.TARE, 0
+    )
+    feeds[0].take([(frame, 1000)])
+    feeds[0].set_baseline(baseline)
+    assert len(made) == 2
+    recording.stop()
+    feeds[0].take([(frame, 2000)])
+    feeds[0].set_baseline(baseline)
+    assert len(made) == 2
 
 
 def test_a_skin_in_the_root_namespace_is_named(tmp_path: Path) -> None:

@@ -43,6 +43,7 @@ class BoardFeed:
         self._baseline = bag.add_topic(f"{name}/baseline", base, *definitions.describe(base), to_bag([qos.LATCHED]))
         self._count_lost = count_lost
         self._lost_before = count_lost()
+        self._is_closed = False
         if baseline is not None:
             self.set_baseline(baseline)
 
@@ -52,12 +53,16 @@ class BoardFeed:
         return self._count_lost() - self._lost_before
 
     def take(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
-        """Write frames, each with its stamp [ns]; from one thread."""
+        """Write frames, each with its stamp [ns]; from one thread. After `close` it costs nothing."""
+        if self._is_closed:
+            return
         for frame, stamp_ns in frames:
             self._bag.write(self._samples, serialize_message(self._message.fill(frame, stamp_ns)))
 
     def set_baseline(self, baseline: Baseline) -> None:
-        """Write a new one."""
+        """Write a new one, until `close`."""
+        if self._is_closed:
+            return
         self._bag.write(self._baseline, serialize_message(baseline_message(baseline, self._frame_id)))
 
     def step(self) -> None:
@@ -65,3 +70,4 @@ class BoardFeed:
 
     def close(self) -> None:
         """See `Feed`."""
+        self._is_closed = True
