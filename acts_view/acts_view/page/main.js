@@ -112,6 +112,13 @@ document.addEventListener("keydown", (event) => {
   else if (replay.isShown) replay.toggle();
   else hold(!panels.isHeld);
 });
+// What gets the focus of the keys is not scrolled under the bars that stay at the edges of the window.
+const bars = [document.querySelector("header.bar"), byId("replay")];
+const keepClear = new ResizeObserver(() => {
+  const [top, bottom] = bars.map((bar) => (getComputedStyle(bar).position === "sticky" ? bar.offsetHeight : 0));
+  document.documentElement.style.scrollPadding = `${top}px 0 ${bottom}px`;
+});
+for (const bar of bars) keepClear.observe(bar);
 darkSystem.addEventListener("change", show);
 onChange(show);
 show();

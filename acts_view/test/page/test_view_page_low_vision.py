@@ -174,3 +174,32 @@ def test_keys_that_are_turned_off_stay_off_and_buttons_have_theirs(
     page.click("#keys")
     page.keyboard.press("s")
     expect(page.locator("#scale")).to_have_value("adaptive")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (360, 640)])
+def test_what_the_keys_go_to_is_not_covered_by_a_bar(
+    play: Callable[..., Player], open_page: Callable[..., Page], width: int, height: int
+) -> None:
+    player = play()
+    player.status = {"offers": OFFERS, "replay": {"name": "x", "playing": True, "position_s": 1.0, "length_s": 9.0}}
+    page = open_page(player, width, height)
+    page.wait_for_selector("#controls [data-name=m]")
+    expect(page.locator("#replay")).to_be_visible()
+    # Of a button, a list or a field its corners; the picture may be larger than the window.
+    covered = """() => {
+      const one = document.activeElement, { left, top, right, bottom } = one.getBoundingClientRect();
+      const isSeen = (x, y) => one.contains(document.elementFromPoint(x, y));
+      const isWhole = isSeen(left + 6, top + 6) && isSeen(right - 6, bottom - 6);
+      const isTold = one.matches("main :is(button, select, input, summary)");
+      return isTold && !isWhole ? one.textContent || one.dataset.name : "";
+    }"""
+    reached = set()
+    for key in ("Tab", "Shift+Tab"):
+        for _ in range(60):
+            page.keyboard.press(key)
+            page.evaluate("() => new Promise(requestAnimationFrame)")
+            assert page.evaluate(covered) == "", key
+            reached.add(page.evaluate("() => document.activeElement.textContent"))
+            if page.evaluate("() => document.activeElement === document.body"):
+                break
+    assert {"Taxels, CSV", "Calibrate", "Release"} <= reached
