@@ -27,7 +27,8 @@ export class Recording {
     if (!recording) return;
     this.isOn = recording.on;
     this.button.textContent = recording.on ? "Stop recording" : "Record";
-    this.button.setAttribute("aria-pressed", String(recording.on));
+    // Of what is read out the words alone say it: "Stop recording, pressed" would say that it was stopped.
+    this.button.dataset.on = String(recording.on);
     // What counts on by itself is not read out.
     this.line.setAttribute("aria-live", recording.on ? "off" : "polite");
     if (recording.on) {

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -203,3 +203,22 @@ def test_what_the_keys_go_to_is_not_covered_by_a_bar(
             if page.evaluate("() => document.activeElement === document.body"):
                 break
     assert {"Taxels, CSV", "Calibrate", "Release"} <= reached
+
+
+def test_of_a_recording_the_button_says_what_it_does_and_not_that_it_is_pressed(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    off: dict[str, Any] = {"on": False, "note": "", "files": []}
+    on = {**off, "on": True, "name": "touch", "elapsed_s": 3.0, "bytes": 0, "messages": 3000, "lost": 0}
+    player.status["recording"] = on
+    page = open_page(player)
+    section = page.locator("#recording .group")
+    expect(section.get_by_role("button", name="Stop recording")).to_be_visible()
+    assert '- button "Stop recording"\n' in section.aria_snapshot() + "\n"
+    background = "(button) => getComputedStyle(button).backgroundColor"
+    accent = section.locator("button").evaluate(background)
+    player.status["recording"] = off
+    expect(section.get_by_role("button", name="Record", exact=True)).to_be_visible()
+    # For who sees it, it still looks like what is on.
+    assert section.locator("button").evaluate(background) != accent
