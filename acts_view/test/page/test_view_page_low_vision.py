@@ -222,3 +222,18 @@ def test_of_a_recording_the_button_says_what_it_does_and_not_that_it_is_pressed(
     expect(section.get_by_role("button", name="Record", exact=True)).to_be_visible()
     # For who sees it, it still looks like what is on.
     assert section.locator("button").evaluate(background) != accent
+
+
+def test_on_a_dark_system_the_page_is_dark_before_its_script_has_run(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), color_scheme="dark")
+    colours = """() => [document.body, document.querySelector("header"), document.querySelector("#keys")].map((one) => {
+      const { backgroundColor, color, colorScheme } = getComputedStyle(one);
+      return [backgroundColor, color, colorScheme];
+    })"""
+    after = page.evaluate(colours)
+    page.route("**/main.js", lambda route: route.fulfill(body="", content_type="text/javascript"))
+    page.reload()
+    assert page.get_attribute("html", "data-theme") is None
+    assert page.evaluate(colours) == after
