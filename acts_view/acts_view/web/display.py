@@ -34,13 +34,12 @@ class _Skin:
 
     def describe(self, shape: SkinShape) -> None:
         """Take what the skin is like."""
-        self._is_told = True
-        self._describe(shape)
+        self._describe(shape, is_told=True)
 
-    def _describe(self, shape: SkinShape) -> None:
-        if shape != self.shape:
-            self.shape = shape
-            self.description = encode(describe_skin(self._name, shape))
+    def _describe(self, shape: SkinShape, *, is_told: bool = False) -> None:
+        if (shape, is_told) != (self.shape, self._is_told):
+            self.shape, self._is_told = shape, is_told
+            self.description = encode({**describe_skin(self._name, shape), "told": is_told})
 
     def take(self, frame: Frame, samples: Sequence[Sample]) -> None:
         """Take the newest state, and what has come since the last one."""

@@ -16,6 +16,7 @@ import { nameOf, rounded, setText } from "../words.js";
 
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
+const SHAPE_MS = 500; // so long the node that knows what a skin is like may take to tell it
 const NUMBERS_EVERY_MS = 200; // faster, nobody can read them
 
 const NUMBERS = [
@@ -76,6 +77,9 @@ export class Panel {
     this.element = document.createElement("article");
     this.element.className = "card skin";
     this.element.dataset.skin = name;
+    // The first skin that a server shows is a square until it is told: drawn so, a hand would jump.
+    this.element.dataset.told = "false";
+    setTimeout(() => this.#appear(), SHAPE_MS);
     this.element.innerHTML = MARKUP;
     this.find = (selector) => this.element.querySelector(selector);
     this.find("h2").textContent = nameOf(name);
@@ -96,6 +100,7 @@ export class Panel {
 
   /** What the skin is like; one whose picture is held is as it was until then. */
   describe(shape) {
+    if (shape.told) this.#appear();
     this.coming = this.isHeld && this.message ? shape : null;
     if (this.coming) return;
     this.shape = shape;
@@ -182,6 +187,10 @@ export class Panel {
     this.message = message;
     this.regions.take(message.hand);
     this.view.setState(message);
+  }
+
+  #appear() {
+    this.element.dataset.told = "true";
   }
 
   /** Whether the skin itself has said something to this server. */

@@ -1,0 +1,66 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The shape of a skin on the page, in a real browser: drawn when it is known, and the scale of its colours below it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+from view_browser import expect, needs_browser
+from view_player import Player, pressed
+
+from acts_view.skin.snapshot import SkinShape
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = [needs_browser, pytest.mark.slow]
+
+# The half second for which a page waits for the shape never ends.
+WAIT_FOR_EVER = """
+const wait = window.setTimeout;
+window.setTimeout = (call, time_ms, ...given) => (time_ms === 500 ? 0 : wait(call, time_ms, ...given));
+"""
+
+
+def test_a_skin_is_drawn_when_its_shape_is_known(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    player = play(())
+    player.server.show_frame(*pressed("/hand", time.time()))
+    page = open_page(player, is_live=False)
+    page.add_init_script(WAIT_FOR_EVER)
+    page.reload()
+    skin = page.locator(".skin")
+    # Behind it, so that all of the skin has come.
+    player.status["note"] = "later"
+    expect(page.locator("#note")).to_have_text("later")
+    expect(skin).to_have_count(1)
+    assert not skin.is_visible()
+    player.server.show_shape("/hand", SkinShape(layout="leap_right"))
+    expect(skin).to_be_visible()
+    expect(skin.locator(".shape")).to_contain_text("13 patches")
+
+
+def test_a_square_skin_is_drawn_when_it_is_told_to_be_one(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play(())
+    player.server.show_frame(*pressed("/plate", time.time()))
+    page = open_page(player, is_live=False)
+    page.add_init_script(WAIT_FOR_EVER)
+    page.reload()
+    expect(page.locator(".skin")).to_have_count(1)
+    player.server.show_shape("/plate", SkinShape())
+    expect(page.locator(".skin")).to_be_visible()
+
+
+def test_a_skin_that_nobody_describes_is_drawn_all_the_same(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play(())
+    player.server.show_frame(*pressed("/plate", time.time()))
+    page = open_page(player, is_live=False)
+    expect(page.locator(".skin")).to_be_visible()
