@@ -81,3 +81,22 @@ def test_what_nodes_say_in_long_words_makes_a_phone_s_page_no_wider(
       return angle.getClientRects().length;
     }"""
     assert page.evaluate(lines) == 1
+
+
+def test_the_dot_beside_a_long_state_stays_round(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    page = open_page(play(), 360, 800)
+    # As long as the state of a page that the server refuses.
+    page.evaluate(
+        """() => {
+          const state = document.querySelector("#connection");
+          state.dataset.state = "refused";
+          state.textContent = "the server refuses this page: does the address have its token, or are 32 pages open?";
+        }"""
+    )
+    dot = page.locator("#connection").evaluate(
+        """(state) => {
+          const { width, height } = getComputedStyle(state, "::before");
+          return [parseFloat(width), parseFloat(height)];
+        }"""
+    )
+    assert dot[0] == dot[1] > 0
