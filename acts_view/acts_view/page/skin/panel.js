@@ -112,6 +112,7 @@ export class Panel {
     // The middle of a hand's fingers is nowhere.
     for (const key of ["x", "y"]) this.find(`[data-of=${key}]`).hidden = shape.patches.length > 1;
     this.view.setShape(shape);
+    this.find(".legend").style.maxWidth = this.find(".canvases").style.maxWidth;
   }
 
   /** The newest state. */

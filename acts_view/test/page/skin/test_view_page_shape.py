@@ -64,3 +64,17 @@ def test_a_skin_that_nobody_describes_is_drawn_all_the_same(
     player.server.show_frame(*pressed("/plate", time.time()))
     page = open_page(player, is_live=False)
     expect(page.locator(".skin")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+@pytest.mark.parametrize(("rows", "cols"), [(32, 32), (33, 15), (40, 2)])
+def test_the_scale_is_as_wide_as_the_picture(
+    play: Callable[..., Player], open_page: Callable[..., Page], rows: int, cols: int, width: int
+) -> None:
+    page = open_page(play(shape=SkinShape(rows=rows, cols=cols)), width)
+    picture, scale = (page.locator(one).bounding_box() for one in (".canvases", ".ramp"))
+    assert picture is not None
+    assert scale is not None
+    # Below a very narrow one its words have room, of 16 px a letter.
+    assert scale["width"] == pytest.approx(max(picture["width"], 9 * 16), abs=1)
+    assert page.evaluate("(ends) => ends.scrollWidth <= ends.clientWidth", page.query_selector(".ends"))
