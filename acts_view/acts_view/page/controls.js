@@ -3,6 +3,7 @@
 
 // What the nodes can be asked for, as far as the server lets a page ask, and what they have answered.
 
+import { arrange } from "./arrange.js";
 import { ask } from "./requests.js";
 import { nameOf } from "./words.js";
 
@@ -131,21 +132,6 @@ function refusal(value, least, most) {
   // An empty field is NaN.
   if (!(Number.isInteger(value) && value >= least)) return `not set: needed is a whole number from ${least} on`;
   return value > most ? `not set: the largest is ${most}` : "";
-}
-
-/**
- * Children for these keys, in their order, which is always the same: what is there stays where it is, since a person
- * may be about to press it, or typing in it.
- */
-function arrange(parent, keys, make) {
-  for (const child of Array.from(parent.children)) if (!keys.includes(child.dataset.key)) child.remove();
-  keys.forEach((key, index) => {
-    const present = parent.children[index];
-    if (present?.dataset.key === key) return;
-    const made = make(key);
-    made.dataset.key = key;
-    parent.insertBefore(made, present ?? null);
-  });
 }
 
 function heading(of) {

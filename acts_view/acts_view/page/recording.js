@@ -3,6 +3,7 @@
 
 // What the skins measure is recorded by the server, raw; here it is begun, ended, and its files are fetched.
 
+import { arrange } from "./arrange.js";
 import { fetchFile, save } from "./files.js";
 import { ask } from "./requests.js";
 import { setText } from "./words.js";
@@ -16,7 +17,6 @@ export class Recording {
     this.line = element.querySelector(".answer");
     this.list = element.querySelector("ul");
     this.isOn = false;
-    this.key = "";
     this.note = "";
     onceAtATime(this.button, () => this.#toggle());
   }
@@ -39,10 +39,8 @@ export class Recording {
       this.note = recording.note;
       this.#tell(recording.note);
     }
-    const key = JSON.stringify(recording.files);
-    if (key === this.key) return;
-    this.key = key;
-    this.list.replaceChildren(...recording.files.map(([name, bytes]) => this.#file(name, bytes)));
+    // What is there stays: a person may be about to press it, or it is being fetched. Another size is another file.
+    arrange(this.list, recording.files.map((file) => JSON.stringify(file)), (key) => this.#file(...JSON.parse(key)));
   }
 
   async #toggle() {

@@ -40,3 +40,22 @@ def test_a_refusal_outlives_the_note_of_an_earlier_recording(
     expect(line).to_contain_text("touch: 3 s")
     player.status["recording"] = off
     expect(line).to_have_text("900 messages in 1.0 s")
+
+
+def test_a_download_keeps_the_focus_where_another_file_comes_and_an_old_one_goes(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    off: dict[str, Any] = {"on": False, "note": "", "files": [["second", 2_000_000], ["first", 1_000_000]]}
+    player.status["recording"] = off
+    page = open_page(player)
+    buttons = page.locator("#recording .files button")
+    expect(buttons).to_have_text(["Download second", "Download first"])
+    buttons.nth(0).focus()
+    player.status["recording"] = {**off, "files": [["third", 3_000_000], ["second", 2_000_000]]}
+    expect(buttons).to_have_text(["Download third", "Download second"])
+    expect(buttons.nth(1)).to_be_focused()
+    # A file that somebody has removed is not as large as it was.
+    player.status["recording"] = {**off, "files": [["third", 0], ["second", 2_000_000]]}
+    expect(page.locator("#recording .files")).to_contain_text("0.0 MB")
+    expect(buttons.nth(1)).to_be_focused()
