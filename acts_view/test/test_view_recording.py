@@ -79,6 +79,12 @@ class Bench:
             node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
+    def add_skin(self, name: str) -> None:
+        """Another one, which publishes as the first one does."""
+        self.late = self._skin.create_publisher(TactileSamples, f"{name}/samples", qos.STREAM)
+        contact = self._skin.create_publisher(Contact, f"{name}/contact", qos.STREAM)
+        self._skin.create_timer(0.005, lambda: (self.late.publish(TactileSamples()), contact.publish(Contact())))
+
     def _publish(self) -> None:
         self._sequence += 1
         self._samples.publish(
@@ -103,11 +109,11 @@ def begin(tmp_path: Path) -> Iterator[Callable[..., Bench]]:
 class Asker:
     """A page that asks, without a browser."""
 
-    def __init__(self, client: ClientConnection) -> None:
+    def __init__(self, client: ClientConnection, skins: Sequence[str] = ("/plate",)) -> None:
         self._client = client
         self._number = 0
         # Only what is known to publish is recorded.
-        self.until(lambda header: header["type"] == "status" and header["skins"] == ["/plate"])
+        self.until(lambda header: header["type"] == "status" and header["skins"] == list(skins))
 
     def until(self, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
         return header_where(self._client, condition)
@@ -208,6 +214,26 @@ def test_a_recording_ends_at_its_size_and_with_the_program(begin: Callable[..., 
     assert (last / "metadata.yaml").is_file()
     with open_bag(last) as bag:
         assert bag.note is None
+
+
+def test_a_skin_that_appears_during_a_recording_is_in_it(begin: Callable[..., Bench], tmp_path: Path) -> None:
+    bench = begin()
+    with bench.connect() as client:
+        page = Asker(client)
+        assert page.ask("record")[0]
+    # Nobody watches.
+    bench.add_skin("/late")
+    deadline_s = time.monotonic() + DEADLINE_S
+    while bench.late.get_subscription_count() == 0:
+        assert time.monotonic() < deadline_s
+    with bench.connect() as client:
+        page = Asker(client, ["/late", "/plate"])
+        before = page.recording(lambda state: state.get("messages", 0) > 0)["messages"]
+        page.recording(lambda state: state.get("messages", 0) > before)
+        assert page.ask("stop_recording")[0]
+    (path,) = (tmp_path / "recordings").iterdir()
+    with open_bag(path) as bag:
+        assert {"/late/samples", "/plate/samples"} <= {topic for topic, _, _ in bag.messages(list(bag.topics()))}
 
 
 def test_as_many_messages_are_told_of_as_are_in_the_bag(begin: Callable[..., Bench], tmp_path: Path) -> None:

@@ -1,11 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What fills a recording from the graph: the topics of the shown skins, as they appear."""
+"""What fills a recording from the graph: the topics of the shown skins, both as they appear."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from rclpy.node import Node
 
@@ -23,14 +23,16 @@ class GraphFeed:
     ----------
     node : Node
         Spun by somebody else; it gets the subscriptions.
-    skins : sequence of str
-        Their namespaces, each with a slash before.
+    skins : callable
+        Gives the namespaces of those that there are, each with a slash before.
     bag : BoundedBag
     """
 
-    def __init__(self, node: Node, skins: Sequence[str], bag: BoundedBag) -> None:
-        topics = [f"{skin}/{topic}" for skin in skins for topic in TOPICS]
-        self._recorder = Recorder(node, bag, topics, node.get_logger().info)
+    def __init__(self, node: Node, skins: Callable[[], Sequence[str]], bag: BoundedBag) -> None:
+        self._skins = skins
+        # The recorder sees what is added.
+        self._topics: list[str] = []
+        self._recorder = Recorder(node, bag, self._topics, node.get_logger().info)
         self.step()
 
     @property
@@ -39,7 +41,9 @@ class GraphFeed:
         return sum(record.lost or 0 for record in self._recorder.records.values())
 
     def step(self) -> None:
-        """Look for new topics."""
+        """Look for new skins and topics."""
+        topics = (f"{skin}/{topic}" for skin in self._skins() for topic in TOPICS)
+        self._topics += [topic for topic in topics if topic not in self._topics]
         self._recorder.discover()
 
     def close(self) -> None:

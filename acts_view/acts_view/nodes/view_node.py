@@ -112,11 +112,17 @@ class ViewNode(PollingNode):
         self._server.close()
         self._recording.close()
 
-    def _feed(self, skins: Sequence[str], bag: BoundedBag) -> Feed:
+    def _feed(self, _skins: Sequence[str], bag: BoundedBag) -> Feed:
         # Imported here, because it is slow to import and few record.
         from acts_view.nodes.graph_feed import GraphFeed
 
-        return GraphFeed(self, skins, bag)
+        return GraphFeed(self, self._recorded, bag)
+
+    def _recorded(self) -> Sequence[str]:
+        """The skins that there are, also those that appeared while no page is open."""
+        if not self._settings.namespaces:
+            self._find()
+        return self._names
 
     def _on_pages(self, pages: int) -> None:
         """From the server's thread."""
