@@ -170,11 +170,11 @@ def test_a_stop_is_done_where_the_node_refuses_all_else_for_what_waits(
     bench = begin(control=True)
     monkeypatch.setattr(control, "_WAITING_MAX", 0)
     with bench.connect() as client:
-        until(client, lambda header: ["stop_grasp", "/hand"] in header.get("offers", []))
+        header_where(client, lambda header: ["stop_grasp", "/hand"] in header.get("offers", []))
         client.send('{"id":1,"do":"grasp","skin":"/hand"}')
         client.send('{"id":2,"do":"stop_grasp","skin":"/hand"}')
-        assert "requests wait" in until(client, lambda header: header.get("id") == 1)["text"]
-        assert until(client, lambda header: header.get("id") == 2)["done"]
+        assert "requests wait" in header_where(client, lambda header: header.get("id") == 1)["text"]
+        assert header_where(client, lambda header: header.get("id") == 2)["done"]
     assert bench.called == ["hand_reflexes/stop"]
 
 
@@ -200,11 +200,11 @@ def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench])
 def test_what_was_set_is_what_is_told_from_then_on(begin: Callable[..., Bench]) -> None:
     bench = begin(control=True)
     with bench.connect() as client:
-        until(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 55)
+        header_where(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 55)
         for value in (60, 61, 62):
             client.send(json.dumps({"id": value, "do": "set", "skin": "/plate", "name": "m", "value": value}))
-            assert until(client, lambda header, value=value: header.get("id") == value)["done"]  # type: ignore[misc]
-            told = until(client, lambda header: "/plate" in header.get("settings", {}))
+            assert header_where(client, lambda header, value=value: header.get("id") == value)["done"]  # type: ignore[misc]
+            told = header_where(client, lambda header: "/plate" in header.get("settings", {}))
             assert told["settings"]["/plate"]["m"] == value
 
 
