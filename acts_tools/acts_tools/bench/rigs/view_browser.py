@@ -59,7 +59,8 @@ def watch(program: str, port: int, seconds: float) -> Watched:
         page.add_init_script(_WATCH)
         began_s = time.monotonic()
         page.goto(f"http://127.0.0.1:{port}/")
-        page.wait_for_function("window.ages_ms.length > 0")
+        # As a function: the page refuses to evaluate text, unless it is true at once.
+        page.wait_for_function("() => window.ages_ms.length > 0")
         first_s = time.monotonic()
         page.evaluate("window.ages_ms = []")
         page.wait_for_timeout(1e3 * max(seconds - (first_s - began_s), 1.0))

@@ -65,7 +65,7 @@ def test_a_page_that_nobody_sees_draws_nothing_and_shows_the_newest_when_it_is_s
     page.add_init_script(HIDE)
     page.reload()
     page.wait_for_selector(".skin .pill[data-state=live]")
-    page.wait_for_function("window.drawn > 0")
+    page.wait_for_function("() => window.drawn > 0")
     page.evaluate("window.isHidden = true")
     # What was begun before comes to its end.
     heard(page, 10)
