@@ -260,7 +260,7 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
         bench.until(
             lambda: (
                 bool(bench.headers.get("frame", {}).get("regions") and bench.headers["frame"]["hand"])
-                and len(bench.headers["status"]["diagnostics"]) == 200
+                and len(bench.headers.get("status", {}).get("diagnostics", ())) == 200
                 and len(bench.arrays["contacts"]) > 0
             ),
             client,
