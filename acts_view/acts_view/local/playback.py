@@ -129,6 +129,9 @@ class Playback:
                 if self._is_stopped:
                     return
                 seek_us, self._seek_us = self._seek_us, None
+                if seek_us is not None:
+                    # Told from now on: to read what is there may take a while.
+                    self._position_us = seek_us
             try:
                 if seek_us is not None:
                     self._jump(seek_us)
@@ -170,7 +173,6 @@ class Playback:
             self._read_on(self._coming)
         if shown:
             self._on_frames(shown)
-        self._set_position(seek_us)
         self._anchor_us = _now_us() - seek_us
 
     def _take_due(self) -> list[SampleFrame]:

@@ -64,12 +64,15 @@ def show(
         while not stopped.wait(1.0 / ViewSettings.rate_hz):
             while not asked.empty():
                 _act(source, *asked.get())
+            is_due = time.monotonic() - told_s >= _STATUS_PERIOD_S
+            # Asked before what is newest: of frames that count as played there, none is shown later.
+            status = source.status() if is_due else {}
             newest = source.skin.newest()
             if newest is not None:
                 server.show_frame(name, *newest)
-            if time.monotonic() - told_s >= _STATUS_PERIOD_S:
+            if is_due:
                 told_s = time.monotonic()
-                server.show_status({"skins": [name], **source.status()})
+                server.show_status({"skins": [name], **status})
     finally:
         source.stop()
         server.close()

@@ -1,0 +1,104 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A recording shown without a graph: what the page is told of it is true of the picture that it has."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from test_view_codec import decode
+from test_view_local import DEADLINE_S, Counted, Shown
+from waiting import wait_for
+
+from acts_core.frames import SampleFrame
+from acts_view.local import show as show_module
+from acts_view.local.playback import Playback
+from acts_view.local.sources import LocalSource
+from acts_view.skin.snapshot import Frame, Sample, SkinShape
+
+
+class SlowToFind(Counted):
+    """Of times beyond its beginning nothing can be read until that is allowed."""
+
+    def __init__(self) -> None:
+        self.is_searched, self.is_allowed = threading.Event(), threading.Event()
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        if from_us:
+            self.is_searched.set()
+            assert self.is_allowed.wait(DEADLINE_S)
+        yield from super().frames(from_us)
+
+
+def test_where_one_has_gone_is_told_while_what_is_there_is_still_read() -> None:
+    recording = SlowToFind()
+    numbers: list[int] = []
+    playback = Playback(recording, lambda frames: numbers.extend(one.sequence for one in frames), lambda: None)
+    playback.start()
+    try:
+        playback.pause()
+        playback.seek(1.2)
+        assert recording.is_searched.wait(DEADLINE_S)
+        assert playback.state.position_s == pytest.approx(1.2)
+        recording.is_allowed.set()
+        wait_for(lambda: 700 in numbers)
+        assert playback.state.position_s == pytest.approx(1.2)
+    finally:
+        recording.is_allowed.set()
+        playback.stop()
+
+
+class Ending:
+    """Its last frame comes, and it ends, just after it was asked for what is newest."""
+
+    def __init__(self) -> None:
+        self.may_end = threading.Event()
+        self._last: list[tuple[Frame, list[Sample]]] = []
+        self._is_over = False
+        self.skin = SimpleNamespace(shape=SkinShape(rows=2, cols=2), newest=self._newest)
+
+    def _newest(self) -> tuple[Frame, list[Sample]] | None:
+        found = self._last.pop() if self._last else None
+        if self.may_end.is_set() and not self._is_over:
+            self._is_over = True
+            self._last.append((Frame(stamp_s=1.0, image=np.zeros((2, 2), np.uint16)), []))
+        return found
+
+    def status(self) -> dict[str, Any]:
+        return {"is_over": self._is_over}
+
+    def start(self, _on_jump: object) -> None:
+        """See `LocalSource`."""
+
+    def stop(self) -> None:
+        """See `LocalSource`."""
+
+    def find_file(self, _name: str) -> None:
+        """See `LocalSource`."""
+
+
+def test_the_end_of_a_recording_is_told_after_its_last_frame(monkeypatch: pytest.MonkeyPatch) -> None:
+    # With each picture.
+    monkeypatch.setattr(show_module, "_STATUS_PERIOD_S", 0.0)
+    source = Ending()
+    shown = Shown(cast(LocalSource, source), "/press")
+    seen: list[dict[str, Any]] = []
+    try:
+        with shown.connect() as client:
+
+            def read() -> None:
+                header, _ = decode(client.recv(DEADLINE_S))  # type: ignore[arg-type]
+                seen.append(header)
+
+            wait_for(lambda: bool(seen), meanwhile=read)
+            source.may_end.set()
+            wait_for(lambda: bool(seen[-1].get("is_over")), meanwhile=read, state=lambda: seen[-3:])
+    finally:
+        shown.close()
+    assert "frame" in [one["type"] for one in seen]
