@@ -74,11 +74,20 @@ class Bench:
         )
         self.contact.publish(write_contact(fields))
 
-    def destroy(self, publishers: list[Publisher]) -> None:
-        # By the thread that spins: the executor may not meet one that is being destroyed.
-        task = self._spinning.executor.create_task(lambda: [self.skin.destroy_publisher(one) for one in publishers])
+    @property
+    def diagnostics(self) -> list[dict[str, Any]]:
+        """Of the last status; none before the first has come."""
+        return list(self.headers.get("status", {}).get("diagnostics", []))
+
+    def on_executor(self, work: Callable[[], object]) -> None:
+        """Do something on the thread that spins, and wait for its end."""
+        task = self._spinning.executor.create_task(work)
         wait_for(task.done, "the executor", DEADLINE_S)
         task.result()
+
+    def destroy(self, publishers: list[Publisher]) -> None:
+        # The executor may not meet one that is being destroyed.
+        self.on_executor(lambda: [self.skin.destroy_publisher(one) for one in publishers])
 
     def until(self, condition: Callable[[], bool], client: ClientConnection, meanwhile: Callable[[], Any]) -> None:
         def turn() -> None:

@@ -91,7 +91,9 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
                 and bool(bench.headers["frame"]["regions"] and bench.headers["frame"]["hand"])
                 and bench.headers["skin"]["layout"] == "leap_right"
                 and sum(map(len, bench.history)) > 2
-                and any(one["name"] == "hand/driver" for one in bench.headers["status"]["diagnostics"])
+                and any(one["name"] == "hand/driver" for one in bench.diagnostics)
+                # A frame may be made between two presses.
+                and is_pressed_with(bench, 3.0)
             ),
             client,
             play,
@@ -260,7 +262,7 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
         bench.until(
             lambda: (
                 bool(bench.headers.get("frame", {}).get("regions") and bench.headers["frame"]["hand"])
-                and len(bench.headers.get("status", {}).get("diagnostics", ())) == 200
+                and len(bench.diagnostics) == 200
                 and len(bench.arrays["contacts"]) > 0
             ),
             client,
@@ -272,7 +274,7 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
         assert len(bench.arrays["contacts"]) == 64
         assert (len(frame["regions"]), len(frame["regions"][0][0])) == (63, 200)
         assert (len(frame["hand"]["reason"]), len(frame["hand"]["active"])) == (200, 64)
-        assert max(len(one["message"]) for one in bench.headers["status"]["diagnostics"]) == 500
+        assert max(len(one["message"]) for one in bench.diagnostics) == 500
         bench.until(lambda: bench.headers["frame"]["touch"] is not None, client, lambda: bench.press(2.0))
     assert [record.message for record in caplog.records if record.name == "asyncio"] == []
 
@@ -280,12 +282,16 @@ def test_what_cannot_be_is_left_out_and_the_page_goes_on(bench: Bench, caplog: p
 def test_of_long_diagnostics_only_what_can_be_shown_is_kept_and_that_not_for_ever(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    tracemalloc.start()
-    try:
+    def report() -> None:
         for number in range(200):
             values = [KeyValue(key="k", value="v" * 1_000_000)]
             one = DiagnosticStatus(name=f"{number}/{'n' * 100_000}", message="m" * 100_000, values=values)
             bench.view._on_diagnostics(DiagnosticArray(status=[one]))
+
+    tracemalloc.start()
+    try:
+        # Where messages are heard: elsewhere it could meet the look for what is to be forgotten.
+        bench.on_executor(report)
         assert tracemalloc.get_traced_memory()[0] < 5e6
     finally:
         tracemalloc.stop()
@@ -316,6 +322,12 @@ def test_recordings_may_be_meant_for_the_home_folder(monkeypatch: pytest.MonkeyP
     assert ViewSettings().record_folder == Path("recordings")
     with pytest.raises(SettingsError, match="~no_such_user/x: "):
         ViewSettings(record_dir="~no_such_user/x")
+
+
+def is_pressed_with(bench: Bench, force_n: float) -> bool:
+    """Whether the last frame says so."""
+    touch = bench.headers["frame"]["touch"]
+    return touch is not None and touch[2] == force_n
 
 
 def contact_subscribers(bench: Bench) -> int:

@@ -34,7 +34,7 @@ def test_a_second_publisher_of_a_skin_is_named_until_it_is_gone(bench: Bench) ->
     player.create_publisher(TactileSamples, "/hand/samples", qos.STREAM)
 
     def told() -> list[dict[str, Any]]:
-        return [one for one in bench.headers.get("status", {}).get("diagnostics", []) if one["name"] == "/hand"]
+        return [one for one in bench.diagnostics if one["name"] == "/hand"]
 
     with bench.connect() as client:
         bench.until(lambda: bool(told()), client, lambda: bench.press(1.0))
