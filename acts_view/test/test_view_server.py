@@ -16,11 +16,13 @@ from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from queue import Queue
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from test_view_codec import decode
+from view_slow_line import SlowLine, over_a_slow_line
 from waiting import wait_for
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
@@ -29,11 +31,11 @@ from websockets.typing import Origin
 from acts_core.errors import SettingsError
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web import connections
+from acts_view.web import server as view_server
 from acts_view.web.server import ViewServer
 
 DEADLINE_S = 30.0
 SEND_LIMIT_S = 0.3
-SLOW_BYTES_S = 1_000_000
 
 
 class Bench:
@@ -156,7 +158,10 @@ def test_a_foreign_page_is_refused(bench: Bench, origin: str | None) -> None:
     assert refused.value.response.status_code == 403
 
 
-def test_a_stalled_client_holds_nobody_up_and_is_dropped(bench: Bench) -> None:
+def test_a_stalled_client_holds_nobody_up_and_is_dropped(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    # At each look at a client that takes nothing it is 10 ms later, however long this machine takes for a message.
+    looks = count(100)
+    monkeypatch.setattr(view_server, "time", SimpleNamespace(monotonic=lambda: 0.01 * next(looks)))
     buffer = socket.socket()
     buffer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     buffer.connect(("127.0.0.1", bench.server.address.port))
@@ -179,57 +184,32 @@ def test_a_stalled_client_holds_nobody_up_and_is_dropped(bench: Bench) -> None:
     assert f"took nothing for {SEND_LIMIT_S:g} s" in bench.log[0]
 
 
-def slow_line(bench: Bench, path: str) -> socket.socket:
-    """The socket of a page whose line carries little at a time, after its handshake."""
-    own = socket.socket()
-    own.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
-    own.settimeout(DEADLINE_S)
-    port = bench.server.address.port
-    own.connect(("127.0.0.1", port))
-    lines = (
-        f"GET {path} HTTP/1.1", f"Host: 127.0.0.1:{port}", f"Origin: {bench.origin}", "Upgrade: websocket",
-        "Connection: Upgrade", "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==", "Sec-WebSocket-Version: 13", "", "",
-    )  # fmt: skip
-    own.sendall("\r\n".join(lines).encode())
-    answer = b""
-    while not answer.endswith(b"\r\n\r\n"):
-        answer += own.recv(1)
-    assert b" 101 " in answer.partition(b"\r\n")[0]
-    return own
-
-
-def read_slowly(bench: Bench, own: socket.socket, bytes_min: int, meanwhile: Callable[[], object]) -> float:
-    """Read so much, `SLOW_BYTES_S` at most; how long it took [s]."""
-    began_s, got = time.monotonic(), 0
-
-    def read() -> None:
-        nonlocal got
-        # A busy machine makes up for a pause: the line is slow, it does not stand still.
-        while got < SLOW_BYTES_S * (time.monotonic() - began_s):
-            piece = own.recv(4096)
-            assert piece, f"closed after {got} bytes: {bench.log}"
-            got += len(piece)
-            meanwhile()
-
-    bench.until(lambda: got >= bytes_min, read)
-    return time.monotonic() - began_s
+def slow_line(bench: Bench, path: str) -> SlowLine:
+    return SlowLine(bench.server.address.port, bench.origin, path)
 
 
 def test_a_page_on_a_slow_line_is_not_dropped_while_it_takes_something(bench: Bench) -> None:
-    own = slow_line(bench, "/stream")
-    bench.until(lambda: bench.pages == [1])
     large = Frame(stamp_s=999.0, image=np.zeros((1000, 1000), np.uint16))
-    bench.server.show_frame("/large", large, [])
-    # All the while there is something that waits.
-    assert read_slowly(bench, own, 1_500_000, lambda: bench.show(1)) > 3 * SEND_LIMIT_S
-    own.close()
+
+    def read(line: SlowLine) -> bool:
+        bench.until(lambda: bench.pages[-1:] == [1])
+        bench.server.show_frame("/large", large, [])
+        line.begin()
+        # All the while there is something that waits.
+        if line.read_slowly(1_500_000, lambda: bench.show(1)):
+            assert line.passed_s > 3 * SEND_LIMIT_S
+            return True
+        bench.until(lambda: bench.pages[-1] == 0)
+        return False
+
+    over_a_slow_line(lambda: slow_line(bench, "/stream"), read, SEND_LIMIT_S, bench.log)
     assert bench.log == []
 
 
 def test_a_server_ends_quietly_beside_a_page_that_takes_nothing(
     bench: Bench, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    own = slow_line(bench, "/stream")
+    own = slow_line(bench, "/stream").own
     bench.until(lambda: bench.pages == [1])
     bench.server.show_frame("/large", Frame(stamp_s=999.0, image=np.zeros((1000, 1000), np.uint16)), [])
     bench.until(lambda: all(one.connection.transport.get_write_buffer_size() > 0 for one in bench.server._clients))
@@ -246,15 +226,18 @@ def test_a_recording_is_sent_over_a_slow_line(bench: Bench, tmp_path: Path, monk
     file = tmp_path / "x.mcap"
     file.write_bytes(bytes(size))
     monkeypatch.setattr(bench.server, "_find_file", lambda _name: file)
-    own = slow_line(bench, "/recordings/x.mcap")
-    # More than the system would keep by itself.
-    assert read_slowly(bench, own, 2_000_000, lambda: None) > 3 * SEND_LIMIT_S
-    got = 2_000_000
-    while got < size:
-        piece = own.recv(65536)
-        assert piece, bench.log
-        got += len(piece)
-    own.close()
+
+    def read(line: SlowLine) -> bool:
+        # More than the system would keep by itself.
+        if not line.read_slowly(2_000_000):
+            return False
+        assert line.passed_s > 3 * SEND_LIMIT_S
+        while line.got < size:
+            if not line.read(65536):
+                return False
+        return True
+
+    over_a_slow_line(lambda: slow_line(bench, "/recordings/x.mcap"), read, SEND_LIMIT_S, bench.log)
     assert bench.log == []
 
 
