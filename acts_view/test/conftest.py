@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import pytest
 from view_browser import BROWSER, DEADLINE_MS, INSTALL
-from view_player import Player
+from view_player import Player, next_picture
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -68,8 +68,7 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         page.goto(player.url)
         if is_live:
             page.wait_for_selector(".skin .pill[data-state=live]")
-            # What has come by then is drawn with the next picture of the screen.
-            page.evaluate("() => new Promise(requestAnimationFrame)")
+            next_picture(page)
         return page
 
     yield begin

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from waiting import wait_for
 
 from acts_view.skin.snapshot import Frame, RegionState, Sample, SkinShape
 from acts_view.web.server import ViewServer
@@ -83,13 +84,15 @@ class Player:
         self.url = self.server.address.url
         for name in names:
             self.server.show_shape(name, shape or SkinShape())
-        self._names = names
+        self.names = names
+        """Of the skins that it plays; those that a test adds have the shape that it gives them."""
         self._change = change
         self.status: dict[str, Any] = {}
         """What each status says besides."""
         self.is_silent = is_silent
         """Whether only what controls the skins says something."""
         self._last: dict[str, Frame] = {}
+        self._begin_s = time.time()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._play, daemon=True)
         self._thread.start()
@@ -97,17 +100,17 @@ class Player:
     def _play(self) -> None:
         number = 0
         node = {"name": "plate/driver", "level": 1, "message": "no board", "age_s": 0.1, "values": [["port", "auto"]]}
-        begin_s = time.time()
         while not self._stopped.wait(PERIOD_S):
-            for name in self._names:
-                _, frame, samples = pressed(name, begin_s + number * 0.033)
+            # First, so that a page that shows a skin has a status, too.
+            if number % 30 == 0:
+                self.server.show_status({"skins": list(self.names), "diagnostics": [node], **self.status})
+            for name in self.names:
+                _, frame, samples = pressed(name, self._begin_s + number * 0.033)
                 frame = self._change(frame)
                 if self.is_silent:
                     frame, samples = replace(self._last.get(name, Frame()), ball=frame.ball), []
                 self._last[name] = frame
                 self.server.show_frame(name, frame, samples)
-            if number % 30 == 0:
-                self.server.show_status({"skins": list(self._names), "diagnostics": [node], **self.status})
             number += 1
 
     @property
@@ -115,11 +118,27 @@ class Player:
         """Stamp of its newest frame [s], on a busy machine behind the time of day; a later one ends the history."""
         return max(frame.stamp_s for frame in self._last.values())
 
+    def wait_for_history(self, length_s: float) -> None:
+        """Wait until the plots have so much to show [s]."""
+        wait_for(lambda: bool(self._last) and self.newest_s - self._begin_s > length_s)
+
     def close(self) -> None:
         if not self._stopped.is_set():
             self._stopped.set()
             self._thread.join()
             self.server.close()
+
+
+def next_picture(page: Page) -> None:
+    """Wait until what has come by now is drawn, which is with the next picture of the screen."""
+    page.evaluate("() => new Promise(requestAnimationFrame)")
+
+
+def reload(page: Page) -> None:
+    """Load the page anew, and wait until a skin is drawn again."""
+    page.reload()
+    page.wait_for_selector(".skin .pill[data-state=live]")
+    next_picture(page)
 
 
 def saved(page: Page, what: str, folder: Path) -> Path:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
+from waiting import wait_for
 
 from acts_view.nodes.control import RANGES
 from acts_view.web.requests import Answer
@@ -140,6 +141,7 @@ def test_a_field_that_one_has_left_keeps_its_value_until_the_answer(
     player.status["settings"] = {"/plate": {"m": 55, "threshold_counts": 41}}
     expect(other).to_have_value("41")
     assert field.input_value() == "60"
+    wait_for(lambda: waiting, "what was asked for")
     (answer,) = waiting
     answer(False, "too busy")
     expect(page.locator("#controls > .answer")).to_contain_text("too busy")

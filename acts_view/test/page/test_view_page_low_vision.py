@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from view_browser import BROWSER, DEADLINE_MS, expect, needs_browser
-from view_player import Player
+from view_player import Player, reload
 
 from acts_view.skin.snapshot import Frame
 
@@ -158,8 +158,7 @@ def test_keys_that_are_turned_off_stay_off_and_buttons_have_theirs(
 ) -> None:
     page = open_page(play())
     page.click("#keys")
-    page.reload()
-    page.wait_for_selector(".skin .pill[data-state=live]")
+    reload(page)
     expect(page.locator("#keys")).to_have_attribute("aria-pressed", "false")
     page.focus("canvas.marks")
     for key in ("s", "n", "m", "i", "d", "+", " "):

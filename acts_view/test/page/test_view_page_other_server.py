@@ -5,14 +5,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from view_browser import expect, needs_browser
-from view_player import Player, pressed
+from view_player import Player
 
 from acts_view.skin.snapshot import Frame
 
@@ -69,7 +68,7 @@ def test_a_skin_that_does_not_come_back_goes(follow: Callable[..., tuple[Page, P
 def test_a_skin_that_comes_back_late_keeps_its_panel(follow: Callable[..., tuple[Page, Player]]) -> None:
     page, second = follow()
     expect(page.locator(f"{PLATE} .pill")).to_have_text("waiting")
-    second.server.show_frame(*pressed("/plate", time.time()))
+    second.names = ("/plate",)
     expect(page.locator(f"{PLATE} .pill")).to_have_text("live")
     expect(page.locator(PLATE)).to_have_attribute("data-gone", "false")
     expect(page.locator(PLATE)).to_have_attribute("data-kept", "yes")

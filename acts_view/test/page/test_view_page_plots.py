@@ -77,7 +77,10 @@ def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
 def test_keys_zoom_the_plots_and_move_the_part(
     play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
 ) -> None:
-    page = open_page(play())
+    player = play()
+    page = open_page(player)
+    # More than the part that is seen below, and one before it.
+    player.wait_for_history(1.0)
     expect(page.locator("[data-number=rate]")).to_have_text("1000")
     page.select_option("#window", "10")
     rows = []

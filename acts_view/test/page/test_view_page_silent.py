@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from view_browser import expect, needs_browser
-from view_player import Player
+from view_player import Player, next_picture
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -38,7 +38,8 @@ def test_a_skin_that_stops_is_silent_though_its_controller_goes_on(
     player = play()
     page = open_page(player)
     player.is_silent = True
-    expect(page.locator(".skin .pill")).to_have_text("silent for 3 s")
+    # With each picture of the screen: it says so for a second, and an expectation looks no more often than that.
+    page.wait_for_function("() => document.querySelector('.skin .pill').textContent === 'silent for 3 s'")
     # What it showed last is not what is there now; what the controller says is.
     expect(page.locator(".canvases")).to_have_css("opacity", "0.6")
     expect(page.locator(".facts")).to_have_css("opacity", "0.6")
@@ -69,4 +70,5 @@ def test_a_skin_that_nothing_came_of_is_not_shown_as_untouched(
     player.is_silent = False
     expect(page.locator(".skin .pill")).to_have_text("live")
     expect(page.locator("[data-number=force]")).to_have_text("1.25")
+    next_picture(page)
     assert opacity_of_taxels(page) == 255
