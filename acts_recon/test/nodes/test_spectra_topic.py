@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import Future
+from itertools import count
 
 import numpy as np
 import pytest
@@ -40,12 +41,14 @@ def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench
     for sequence in range(1, 200):
         bench.take(sequence, counts_of(sequence))
     told = bench.received["spectra"]
-    sequence = 200
-    while not told and sequence < 4000:
+    sequences = count(200)
+
+    def take_another() -> None:
         # What is made beside is published with a frame after it.
+        sequence = next(sequences)
         bench.take(sequence, counts_of(sequence))
-        bench.executor.spin_once(timeout_sec=0.01)
-        sequence += 1
+
+    bench.until(lambda: bool(told), take_another)
     first = told[0]
     assert (first.header.frame_id, first.contact, first.contacts) == ("plate", 0, 1)
     assert (first.header.stamp.sec, first.header.stamp.nanosec) == (1_700_000_000, 1_000_000 * first.sequence)
