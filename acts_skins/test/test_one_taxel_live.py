@@ -67,7 +67,7 @@ def test_a_tone_of_3_khz_is_told_when_the_board_is_set_to_one_taxel(tmp_path: Pa
         answer = client.call_async(SetParametersAtomically.Request(parameters=parameters))
         listener.until(answer.done)
         assert answer.result().result.successful, answer.result().result.reason
-        listener.until(lambda: states[-1].scheme == "fixed")
+        listener.until(lambda: bool(states) and states[-1].scheme == "fixed")
         assert (states[-1].fixed_row, states[-1].fixed_col, states[-1].fixed_taxels) == (ROW, COL, 1)
         spectra = listener.listen(Spectrum, "spectra", qos.STREAM)
         # On a busy machine frames are lost, and the first stamps jump while the board's clock is learnt.
