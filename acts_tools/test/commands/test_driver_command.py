@@ -18,6 +18,7 @@ from rclpy.client import Client
 from std_srvs.srv import Trigger
 
 from acts_core.errors import ArrayError, SettingsError
+from acts_msgs.msg import BoardState
 from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.driver.command import parameters_of
@@ -30,7 +31,7 @@ DEADLINE_S = 60.0
 
 @pytest.fixture
 def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """A driver of a virtual board, in namespace /hand."""
+    """A driver of a virtual board, in namespace /hand, that has heard from it."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "119")
     with virtual_board(tmp_path, "--board-id", "77") as board:
         process = subprocess.Popen(
@@ -48,6 +49,10 @@ def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
             env=dict(os.environ),
         )
         try:
+            # The command looks for a driver for a few seconds only, and before a board has answered it is told of a
+            # setting only once it has.
+            with Probe(119) as probe:
+                probe.wait_for_message("/hand/board", BoardState, DEADLINE_S, lambda state: state.answers)
             yield
         finally:
             process.terminate()
