@@ -134,8 +134,17 @@ def test_a_delay_is_seen_in_the_age_and_stays_what_it_is(touch: Touch) -> None:
     earliest = touch.far.wait_for(
         lambda report: (report.topics[CONTACT].median_ms or 0.0) > DELAY_MS - 1, DEADLINE_S, "late contacts"
     )
-    ages_ms = [report.topics[CONTACT].median_ms or 0.0 for report in touch.far.collect(5, DEADLINE_S)]
-    assert min(ages_ms) > DELAY_MS - 1
+    ages_ms: list[float] = []
+
+    def is_enough(report: Report) -> bool:
+        # Where a machine stands still, nothing comes for an interval, which has no age.
+        age_ms = report.topics[CONTACT].median_ms
+        ages_ms.extend([] if age_ms is None else [age_ms])
+        return len(ages_ms) > 5
+
+    touch.far.wait_for(is_enough, DEADLINE_S, "the ages of five intervals")
+    # The first of them may have begun before.
+    assert min(ages_ms[1:]) > DELAY_MS - 1
     # All are on the way for as long: none of them is missing for it.
     touch.far.wait_for(
         lambda report: report.topics[CONTACT].lost == 0 and report.received(CONTACT) > earliest.received(CONTACT),
@@ -166,11 +175,14 @@ def test_after_a_cut_all_comes_back_by_itself(touch: Touch) -> None:
     before = touch.far.collect(1, DEADLINE_S)[-1]
     touch.machines.set_conditions(Conditions(cut=True))
     assert touch.on_near_machine("driver", "set", "m=56" if before.received(BOARD) % 2 else "m=57") == 0
-    silent = touch.far.wait_for(
-        lambda report: (report.topics[CONTACT].silent_s or 0.0) > 2.5, DEADLINE_S, "silence on the far machine"
+    # The far node says so itself, in a report a second; of the near ones nothing is heard.
+    touch.far.wait_for(
+        lambda report: (
+            (report.topics[CONTACT].silent_s or 0.0) > 2.5 and report.complaints.get(FAR_NODE) == "no samples"
+        ),
+        DEADLINE_S,
+        "silence on the far machine, and a word about it",
     )
-    # The far node says so itself; of the near ones nothing is heard.
-    assert silent.complaints.get(FAR_NODE) == "no samples"
     touch.machines.set_conditions(Conditions())
     back = touch.far.wait_for(flows, DEADLINE_S, "contacts after the cut")
     # The gap is counted, not hidden: it lasted for more than two seconds.
