@@ -9,7 +9,7 @@ import os
 import subprocess
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -45,8 +45,12 @@ class Child:
 
     def priorities(self) -> dict[int, int]:
         """Of every thread; 0 under the ordinary scheduler."""
-        threads = [int(path.name) for path in Path(f"/proc/{self.process.pid}/task").iterdir()]
-        return {thread: os.sched_getparam(thread).sched_priority for thread in threads}
+        found = {}
+        for path in Path(f"/proc/{self.process.pid}/task").iterdir():
+            # One may end meanwhile.
+            with suppress(ProcessLookupError):
+                found[int(path.name)] = os.sched_getparam(int(path.name)).sched_priority
+        return found
 
 
 @contextmanager
