@@ -116,7 +116,7 @@ class Player:
     @property
     def newest_s(self) -> float:
         """Stamp of its newest frame [s], on a busy machine behind the time of day; a later one ends the history."""
-        return max(frame.stamp_s for frame in self._last.values())
+        return max(frame.stamp_s for frame in list(self._last.values()))
 
     def wait_for_history(self, length_s: float) -> None:
         """Wait until the plots have so much to show [s]."""
