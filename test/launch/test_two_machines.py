@@ -153,6 +153,12 @@ def test_a_delay_is_seen_in_the_age_and_stays_what_it_is(touch: Touch) -> None:
     )
 
 
+def leaves_out(report: Report) -> bool:
+    """Whether the near machine says that it was too late for some frames."""
+    told = report.complaints
+    return "came late" in told.get(NEAR_NODE, "") or "overrun" in told.get("plate/driver", "")
+
+
 def test_loss_is_counted_and_makes_nothing_late(touch: Touch) -> None:
     touch.machines.set_conditions(Conditions(loss=0.02))
     deadline_s = time.monotonic() + DEADLINE_S
@@ -163,8 +169,8 @@ def test_loss_is_counted_and_makes_nothing_late(touch: Touch) -> None:
         # 2 %; a busy board leaves frames out as well.
         if 0.005 < lost / (received + lost) < 0.2:
             break
-        # So does a reconstruction that is late, and says so: then once more.
-        assert any("came late" in report.complaints.get(NEAR_NODE, "") for report in reports), reports[-1]
+        # So does a reconstruction that is late. Where either leaves out many, which it says: then once more.
+        assert any(map(leaves_out, reports)), reports[-1]
         assert time.monotonic() < deadline_s, f"no loss of some 2 %: {reports[-1]}"
     # What follows a loss does not wait for it.
     assert any((report.topics[CONTACT].median_ms or DELAY_MS) < DELAY_MS for report in reports)
