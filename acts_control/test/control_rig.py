@@ -74,9 +74,14 @@ class Bench:
         return int(self.statuses[-1].state) if self.statuses else -1
 
     def await_phase(self, phase: int, timeout_s: float = START_TIMEOUT_S) -> BalanceStatus:
-        """Wait until the controller says so; the status."""
-        wait_for(lambda: self.phase == phase, lambda: f"state {phase}, it is {self.phase}", timeout_s)
-        return self.statuses[-1]
+        """Wait until the controller says so; the status in which it does."""
+
+        def told() -> BalanceStatus | None:
+            # Read once: the next one may come between two looks.
+            last = self.statuses[-1] if self.statuses else None
+            return last if last is not None and last.state == phase else None
+
+        return wait_for(told, lambda: f"state {phase}, it is {self.phase}", timeout_s)
 
     def call(self, service: str) -> Trigger.Response:
         """Call a Trigger service of ball_control."""
