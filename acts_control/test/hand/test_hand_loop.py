@@ -98,6 +98,7 @@ def test_torque_that_comes_on_for_a_part_of_the_motors_is_switched_off_again(bus
     running.until_phase(HandPhase.RELEASED)
     # On the loop's thread everything stops as soon as a motor is silent: here between two of its steps.
     running.may_go_on.clear()
+    assert running.is_held.wait(DEADLINE_S)
     running.loop.enable()
     bus.command("lose 15")
     running.may_go_on.set()
