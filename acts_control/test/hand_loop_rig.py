@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -50,6 +51,17 @@ class Running:
 
     def until(self, condition: Callable[[], bool]) -> None:
         wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (self.loop.status, self.log))
+
+    def enable(self) -> None:
+        """Switch the torque on; ask again where that took longer than is waited for."""
+
+        def is_on() -> bool:
+            begin_s = time.monotonic()
+            told = self.loop.enable()
+            assert not told or time.monotonic() - begin_s > 1.9, told
+            return not told
+
+        self.until(is_on)
 
     def until_phase(self, phase: HandPhase) -> None:
         self.until(lambda: self.loop.status.phase is phase)

@@ -212,7 +212,7 @@ def test_touch_is_known_while_the_torque_is_off(bus: Bus) -> None:
         assert not says("no touch")
         # Nor does what was felt long ago count, once it is on.
         until(lambda: says("no touch for "))
-        assert answer_of(node, until, "enable").success
+        until(lambda: answer_of(node, until, "enable").success)
         assert answer_of(node, until, "grasp").message.startswith("no touch for ")
 
 
@@ -244,7 +244,7 @@ def test_stop_is_answered_while_enable_waits_and_the_torque_stays_off(bus: Bus) 
         assert {motor["torque_enable"] for motor in bus.motors()} == {0}
         assert statuses[-1].state == HandStatus.STATE_STOPPED
         # Nor does that last: who wants it on after all is obeyed.
-        assert answer_of(node, until, "enable").success
+        until(lambda: answer_of(node, until, "enable").success)
         assert answer_of(node, until, "stop").success
         until(lambda: statuses[-1].reason == "stopped by request")
         assert {motor["torque_enable"] for motor in bus.motors()} == {1}
