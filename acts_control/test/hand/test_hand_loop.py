@@ -46,10 +46,19 @@ def test_a_command_is_followed_no_faster_than_allowed_and_kept(bus: Bus) -> None
     assert torques(bus) == {0}
 
 
+def begin_to_move(running: Running, angles_rad: dict[str, float]) -> None:
+    """Command joints until they move: after this machine stood still, commands are left out for half a second."""
+
+    def is_moving() -> bool:
+        running.loop.command(angles_rad)
+        return running.loop.status.reason == "moving as commanded"
+
+    running.until(is_moving)
+
+
 def test_without_commands_the_goals_stand_still_half_way(running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
-    running.loop.command({"ring_pip": 1.8})
-    running.until(lambda: running.loop.status.reason == "moving as commanded")
+    begin_to_move(running, {"ring_pip": 1.8})
     running.until(lambda: running.loop.status.reason == "holding")
     stood_rad = running.loop.status.goal_rad[10]
     cycles = running.loop.status.cycles
@@ -132,13 +141,12 @@ def test_torque_that_is_unwanted_while_it_comes_on_does_not_stay(
 
 def test_what_was_commanded_long_ago_is_not_resumed_with_another_joint(running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
-    running.loop.command({"ring_pip": 1.8})
-    running.until(lambda: running.loop.status.reason == "moving as commanded")
+    begin_to_move(running, {"ring_pip": 1.8})
     running.until(lambda: running.loop.status.reason == "holding")
     stood_rad = running.loop.status.goal_rad[10]
     with pytest.raises(HandError, match="without a joint"):
         running.loop.command({})
-    running.loop.command({"index_pip": 0.2})
+    begin_to_move(running, {"index_pip": 0.2})
     running.until(lambda: running.loop.status.goal_rad[2] == pytest.approx(0.2))
     assert running.loop.status.goal_rad[10] == stood_rad
 
