@@ -79,6 +79,14 @@ class Rig(Peers):
         """Until the driver publishes and the listener hears it."""
         self.wait_for_match()
         self.spin_until(lambda: self.driver is not None and self.driver.active, "the active driver")
+        self.wait_for_verdict()
+
+    def wait_for_verdict(self) -> None:
+        """Until it is known whether the board of the configured driver answers: frames from before are not used."""
+        # The driver waits for that too, but no longer than a busy machine may take.
+        session = None if self.driver is None else intake_of(self.driver).session
+        if session is not None:
+            self.spin_until(lambda: session.has_verdict, "word of the board, or that it says nothing")
 
     def wait_for_match(self) -> None:
         """Until the driver's samples reach the listener."""

@@ -171,6 +171,7 @@ def test_with_autostart_the_driver_waits_for_the_board(tmp_path: Path, rig: Rig)
     rig.wait_for_match()
     with board:
         rig.spin_until(lambda: driver.active, "the port")
+        rig.wait_for_verdict()
         assert rig.state() == "active"
         board.write_frames(frame(0))
         rig.spin_until(lambda: rig.samples, "a message")
@@ -210,6 +211,7 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     rig.wait_for_match()
     assert rig.change_state(Transition.TRANSITION_CONFIGURE)
     assert rig.state() == "inactive"
+    rig.wait_for_verdict()
     # Inactive, the board is read, so that nothing old waits, and nothing is published.
     board.write_frames(frame(0))
     rig.spin_until(lambda: intake_of(driver).stream.statistics.frames == 1, "reading")
@@ -225,6 +227,7 @@ def test_life_cycle(board: PtyBoard, rig: Rig) -> None:
     assert driver.intake is None
     assert rig.change_state(Transition.TRANSITION_CONFIGURE)
     assert rig.change_state(Transition.TRANSITION_ACTIVATE)
+    rig.wait_for_verdict()
     board.write_frames(frame(3))
     rig.spin_until(lambda: len(rig.samples) == 2, "a message of the second life")
     assert [message.sequence for message in rig.samples] == [1, 3]
