@@ -66,7 +66,7 @@ def test_a_model_is_uploaded_when_its_file_has_been_read_at_last(rig: Rig, slow_
         driver = rig.start_driver(port=board.link)
         rig.wait_until_active()
         assert rig.set_parameters(model=str(tmp_path / "model.npz")) == (True, "")
-        assert slow_file.begun.is_set()
+        assert slow_file.begun.wait(AT_MOST_S)
         n_before = len(rig.samples)
         assert "model none" in rig.query()[1]
         rig.spin_until(lambda: len(rig.samples) > n_before + 100, "frames meanwhile")
