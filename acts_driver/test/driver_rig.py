@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 
 import rclpy
@@ -23,6 +24,7 @@ from std_srvs.srv import Trigger
 from acts_driver.nodes.driver_node import DriverNode
 from acts_driver.nodes.intake import Intake
 from acts_msgs.msg import TactileSamples
+from acts_ros.messages import ns_of
 from acts_ros.qos import STREAM
 
 DEADLINE_S = 20.0
@@ -46,11 +48,14 @@ class Rig(Peers):
         self.listener = self.peer
         self.samples: list[TactileSamples] = []
         self.statuses: list[dict[str, str]] = []
+        self._since_ns = 0
         self.subscription = self.listener.create_subscription(TactileSamples, "samples", self.samples.append, STREAM)
         self.listener.create_subscription(DiagnosticArray, "/diagnostics", self._keep_status, 10)
         self.driver: DriverNode | None = None
 
     def _keep_status(self, message: DiagnosticArray) -> None:
+        if ns_of(message.header.stamp) < self._since_ns:
+            return
         for status in message.status:
             values = {value.key: value.value for value in status.values}
             self.statuses.append(
@@ -96,7 +101,8 @@ class Rig(Peers):
             self.spin_until(lambda: driver.count_subscribers("/plate/samples") == 1, "the subscription")
 
     def status_until(self, condition: Callable[[dict[str, str]], object], what: str) -> dict[str, str]:
-        """The first status from now on that fulfils a condition."""
+        """The first status that was made from now on and fulfils a condition; one from before may yet be heard."""
+        self._since_ns = time.time_ns()
         self.statuses.clear()
         self.spin_until(lambda: any(map(condition, self.statuses)), what)
         return next(filter(condition, self.statuses))
