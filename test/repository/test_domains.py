@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 NAMED = re.compile(r"ROS_DOMAIN_IDs?:?((?:\s|,|and|to|\d+)+)")
 """How the docstring of a test module names its domains: `ROS_DOMAIN_ID 3`, `ROS_DOMAIN_IDs 3, 5 to 8 and 10`."""
 
-CALLS = {"Bench", "Launch", "LaunchFile", "Probe", "Rig", "bench", "launched"}
+CALLS = {"Bench", "Launch", "LaunchFile", "Peers", "Probe", "Rig", "bench", "launched", "spinning_node", "world"}
 """What takes a domain as its first number."""
 
 WORTH_READING = re.compile(r"domain|__init__\(|\b(" + "|".join(sorted(CALLS)) + r")\(", re.IGNORECASE)

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 79, 100 and 101."""
+"""The node over real DDS, with a fake robot writing joints; ROS_DOMAIN_IDs 79, 100, 101 and 103."""
 
 import os
 import signal
