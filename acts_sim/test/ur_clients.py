@@ -56,7 +56,8 @@ def basics(host: str) -> dict[str, Any]:
     found["modes"] = [receive.getRobotMode(), receive.getSafetyMode(), receive.getRuntimeState()]
     found["bits"] = [receive.getRobotStatus(), receive.getSafetyStatusBits(), control.getRobotStatus()]
 
-    control.moveJ(LEVEL, 2.0, 8.0, True)
+    # Slowly: a busy machine may not run this process while a short move is shown.
+    control.moveJ(LEVEL, 2.0, 0.3, True)
     wait_for(lambda: control.getAsyncOperationProgress() >= 0, "the asynchronous move to be shown")
     wait_for(lambda: control.getAsyncOperationProgress() < 0, "its end")
     wait_for(lambda: receive.getActualQ() == LEVEL, "its target to be received")
