@@ -20,7 +20,7 @@ from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandReading
 
 DEADLINE_S = 30.0
 # Half of how long an answer is waited for: a loaded machine is slow.
-TIMEOUT_MS = 150.0
+TIMEOUT_MS = 200.0
 
 
 class Bus(MotorProcess):
