@@ -78,19 +78,26 @@ def ask(rig: Rig, name: str) -> Trigger.Response:
     return future.result()
 
 
-def ask_until(rig: Rig, name: str, condition: Callable[[Trigger.Response], bool], what: str) -> None:
-    """Ask some times a second until the answer is as it should be."""
+def ask_until(rig: Rig, name: str, condition: Callable[[Trigger.Response], bool], what: str) -> Trigger.Response:
+    """Ask some times a second until the answer is as it should be; that answer."""
     due_s = 0.0
+    answers: list[Trigger.Response] = []
 
     def answered() -> bool:
         nonlocal due_s
         if time.monotonic() < due_s:
             return False
-        met = condition(ask(rig, name))
+        answers.append(ask(rig, name))
         due_s = time.monotonic() + 0.1
-        return met
+        return condition(answers[-1])
 
     rig.spin_until(answered, what)
+    return answers[-1]
+
+
+def ask_with_frames(rig: Rig, name: str) -> Trigger.Response:
+    """Ask until there are frames enough: their time is counted anew after this machine stood still."""
+    return ask_until(rig, name, lambda answer: "s of frames so far" not in answer.message, "frames enough")
 
 
 def calibrate(rig: Rig) -> None:
@@ -154,12 +161,12 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     # The skin is pressed: no calibration, but a tare. Samples stay raw.
     stream.field = np.where(np.arange(SIZE) < 2 * COLS, 300, 25).astype(np.uint16)
     rig.spin_until(lambda: bool(rig.samples) and max(rig.samples[-1].counts) >= 300, "the touch")
-    refused = ask(rig, "calibrate")
+    refused = ask_with_frames(rig, "calibrate")
     assert not refused.success
     assert "the skin was touched" in refused.message
     pressed = rig.samples[-1].header.stamp
     rig.spin_until(lambda: rig.samples[-1].header.stamp.sec > pressed.sec + 1, "a second of touch")
-    assert ask(rig, "tare").success
+    assert ask_with_frames(rig, "tare").success
     rig.spin_until(lambda: baselines[-1].source == Baseline.SOURCE_TARE, "the tared baseline")
     assert baselines[-1].baseline[0] == pytest.approx(300.5, abs=1)
     assert max(rig.samples[-1].counts) >= 300
@@ -264,8 +271,9 @@ def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
     (tmp_path / "file").write_text("")
     start(rig, stream, tmp_path / "file" / "skin.npz")
     stream.start()
-    ask_until(rig, "calibrate", lambda answer: "the baseline cannot be saved" in answer.message, "what is wrong")
-    answer = ask(rig, "calibrate")
+    answer = ask_until(
+        rig, "calibrate", lambda answer: "the baseline cannot be saved" in answer.message, "what is wrong"
+    )
     assert not answer.success
     assert answer.message.startswith("calibrated until the driver ends, but not stored: ")
     rig.status_until(lambda status: status.get("baseline") == "calibration", "the report")
