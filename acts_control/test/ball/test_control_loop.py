@@ -117,11 +117,22 @@ def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) 
     wait_for(level, lambda: f"a level plate, {loop.status}")
 
 
-def test_a_robot_that_is_not_there_yet_is_tried_again(arm: ArmInProcess, make: Make) -> None:
+def test_a_robot_that_is_not_there_yet_is_tried_again(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
     arm.connect_errors = [RobotError("no UR controller at 127.0.2.9"), RobotError("no UR controller at 127.0.2.9")]
+    is_seen, connect = threading.Event(), arm.connect
+
+    def connect_once_seen(is_wanted: Callable[[], bool]) -> None:
+        if not arm.connect_errors:
+            is_seen.wait(DEADLINE_S)
+        connect(is_wanted)
+
+    monkeypatch.setattr(arm, "connect", connect_once_seen)
     loop = make(connect_retry_s=0.2)
     wait_for(lambda: "127.0.2.9" in loop.status.reason, "the error in the status")
     assert loop.status.phase is Phase.CONNECTING
+    is_seen.set()
     wait_for(lambda: loop.status.phase is Phase.WAITING, "waiting")
     assert arm.calls.count("connect") == 3
 
