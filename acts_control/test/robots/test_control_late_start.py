@@ -22,6 +22,8 @@ def test_a_start_that_waited_while_the_program_stood_still_moves_no_arm() -> Non
         start = bench.node.create_client(Trigger, "ball_control/start")
         bench.start()
         settings = ["--set", f"ball_control.robot_ip={robot.host}", "--set", "ball_control.autostart=false"]
+        # A busy machine may not run the robot for a while.
+        settings += ["--set", "ball_control.robot_stale_after_s=2.0"]
         with Process(*node_command("ball_balancing", *settings), domain=205) as ours:
             bench.await_phase(BalanceStatus.STATE_STOPPED)
             wait_for(start.service_is_ready, "the service")

@@ -38,6 +38,7 @@ SETTINGS = """
     touch_stale_after_s: 0.3
     ball_lost_after_s: 0.3
     robot_stale_after_s: 1.0
+    robot_watchdog_s: 1.0
     connect_retry_s: 0.2
     homing_speed_rad_s: 2.0
     homing_acceleration_rad_s2: 8.0

@@ -260,6 +260,8 @@ def test_an_arm_stops_when_our_process_stands_still() -> None:
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
     with SimulatedRobot("127.0.17.17", far) as simulated:
         settings = ["--set", f"ball_control.robot_ip={simulated.host}", "--set", "ball_control.homing_speed_rad_s=0.3"]
+        # A busy machine may not run the robot for a while.
+        settings += ["--set", "ball_control.robot_stale_after_s=2.0"]
         command = node_command("ball_balancing", *settings)
         with Process(*command, domain=170) as ours:
             wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
