@@ -129,6 +129,9 @@ class Rig(Peers):
 
     def set_parameters(self, **values: object) -> tuple[bool, str]:
         """Set parameters of the driver as `ros2 param set` does; whether that succeeded, and the reason."""
+        return self._once_heard(lambda: self._set_parameters(**values))
+
+    def _set_parameters(self, **values: object) -> tuple[bool, str]:
         client = self.listener.create_client(SetParametersAtomically, "driver/set_parameters_atomically")
         self.spin_until(client.service_is_ready, "the parameter service")
         request = SetParametersAtomically.Request()
@@ -140,12 +143,26 @@ class Rig(Peers):
 
     def query(self) -> tuple[bool, str]:
         """Ask for the board; success and message of the answer."""
+        return self._once_heard(self._query)
+
+    def _query(self) -> tuple[bool, str]:
         client = self.listener.create_client(Trigger, "driver/query_board")
         self.spin_until(client.service_is_ready, "the query service")
         future = client.call_async(Trigger.Request())
         self.spin_until(future.done, "the answer")
         self.listener.destroy_client(client)
         return bool(future.result().success), str(future.result().message)
+
+    def _once_heard(self, ask: Callable[[], tuple[bool, str]]) -> tuple[bool, str]:
+        """Ask again where a board that has answered before does not: a busy machine does not run it for a while."""
+        answers: list[tuple[bool, str]] = []
+
+        def is_heard() -> bool:
+            answers.append(ask())
+            return "the board does not answer commands any more" not in answers[-1][1]
+
+        self.spin_until(is_heard, "an answer of the board")
+        return answers[-1]
 
     def close(self) -> None:
         """Shut everything down."""
