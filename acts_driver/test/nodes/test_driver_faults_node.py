@@ -84,13 +84,18 @@ def skin(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Skin]:
 
 
 def test_damage_is_counted_and_never_published(skin: Skin) -> None:
-    skin.wait_for_messages()
-    # Doubles first: what is lost may end with a packet's delimiter, and then the next packet is damaged too.
-    skin.board.inject("double:4", "drop:2", "garbage:3000", "flip:9", "truncate:3", "lose:600")
-    skin.board.event("lose:600", over=True)
-    skin.wait_for_messages()
-    added = skin.added()
-    skin.check()
+    for lost_bytes in range(600, 610):
+        skin.wait_for_messages()
+        # Doubles first: what is lost may end with a packet's delimiter, and then the next packet is damaged too.
+        skin.board.inject("double:4", "drop:2", "garbage:3000", "flip:9", "truncate:3", f"lose:{lost_bytes}")
+        skin.board.event(f"lose:{lost_bytes}", over=True)
+        skin.wait_for_messages()
+        added = skin.added()
+        skin.check()
+        is_read = added["malformed"] + added["crc_errors"] > 0 and added["repeated"] == 4
+        if is_read or not (added["discarded"] or added["overruns"]):
+            break
+        # This machine was too slow for the board, and what was damaged was dropped unread: once more.
     assert added["malformed"] + added["crc_errors"] > 0
     assert added["repeated"] == 4
     assert added["lost"] >= 2
