@@ -87,7 +87,8 @@ def test_the_port_changes_only_while_nothing_is_read(board: VirtualBoard, rig: B
     driver = rig.start_driver(port=board.link)
     rig.listen_to_board()
     rig.wait_until_active()
-    with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16") as other:
+    # Not too fast for a busy machine, of which a report would tell.
+    with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16", "--rate-hz", "100") as other:
         succeeded, reason = rig.set_parameters(port=str(other.link), rows=16)
         assert not succeeded
         assert reason.startswith("port can be changed only while /plate/driver is unconfigured")
