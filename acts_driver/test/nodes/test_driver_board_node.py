@@ -23,6 +23,9 @@ from acts_ros.qos import LATCHED
 
 pytestmark = pytest.mark.slow
 
+# A busy machine keeps up with it, or the driver's reports would tell that it does not.
+SLOW = ("--rate-hz", "100")
+
 
 class BoardRig(Rig):
     """A rig that also listens to `board`."""
@@ -47,7 +50,7 @@ def rig() -> Iterator[BoardRig]:
 
 @pytest.fixture
 def board(tmp_path: Path) -> Iterator[VirtualBoard]:
-    with VirtualBoard(tmp_path / "board", "--board-id", "77") as board:
+    with VirtualBoard(tmp_path / "board", "--board-id", "77", *SLOW) as board:
         yield board
 
 
@@ -87,8 +90,7 @@ def test_the_port_changes_only_while_nothing_is_read(board: VirtualBoard, rig: B
     driver = rig.start_driver(port=board.link)
     rig.listen_to_board()
     rig.wait_until_active()
-    # Not too fast for a busy machine, of which a report would tell.
-    with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16", "--rate-hz", "100") as other:
+    with VirtualBoard(tmp_path / "other", "--board-id", "78", "--rows", "16", *SLOW) as other:
         succeeded, reason = rig.set_parameters(port=str(other.link), rows=16)
         assert not succeeded
         assert reason.startswith("port can be changed only while /plate/driver is unconfigured")
