@@ -220,6 +220,8 @@ class ControlLoop:
 
     def _home(self, watch: RobotWatch) -> bool:
         """Move to the level pose; False when that was broken off by request."""
+        if self._stop_reason:
+            return False  # asked for while the robot was just connected
         self.status = replace(self.status, phase=Phase.HOMING, reason="moving to the level pose")
         before = self._checked(watch, 0.0).joints
         timeout_s = self._robot.begin_levelling()

@@ -145,6 +145,23 @@ def test_connecting_can_be_given_up(arm: ArmInProcess, make: Make) -> None:
     assert await_stop(loop) == "stopped by request"
 
 
+def test_an_arm_does_not_move_after_a_stop_that_comes_as_it_is_connected(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop = make(autostart=False)
+    connect = arm.connect
+
+    def stopped_meanwhile(is_wanted: Callable[[], bool]) -> None:
+        connect(is_wanted)
+        assert loop.stop("stopped by request")
+
+    monkeypatch.setattr(arm, "connect", stopped_meanwhile)
+    assert loop.start()
+    assert await_stop(loop) == "stopped by request"
+    wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
+    assert arm.calls == ["connect", "release", "disconnect"]
+
+
 def test_a_robot_held_by_a_safety_function_is_not_waited_for(arm: ArmInProcess, make: Make) -> None:
     # It would begin to move at the moment a person releases it.
     arm.connect_errors = [RobotStoppedError("protective stop")]
