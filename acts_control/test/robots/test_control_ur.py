@@ -141,6 +141,22 @@ def test_where_the_level_pose_is_only_nearly_level_the_first_tilt_is_no_step(mon
     assert ur5e.tilt_of(sent[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("speed_rad_s", "acceleration_rad_s2", "least_s"),
+    [(0.5, 1.5, 1.0 / 0.5 + 0.5 / 1.5), (3.0, 0.01, 2.0 * math.sqrt(1.0 / 0.01)), (0.01, 0.01, 101.0)],
+)
+def test_the_arm_has_time_for_the_way_to_the_level_pose_however_slowly_it_may_go(
+    monkeypatch: pytest.MonkeyPatch, speed_rad_s: float, acceleration_rad_s2: float, least_s: float
+) -> None:
+    robot = UrRobot(
+        UrConfig(robot_ip=HOST, homing_speed_rad_s=speed_rad_s, homing_acceleration_rad_s2=acceleration_rad_s2)
+    )
+    monkeypatch.setattr(robot, "_send", lambda *_words: None)
+    monkeypatch.setattr(robot, "_newest", lambda: UrState(True, 1.0, tuple(pose(elbow=1.0)), 1, 2))
+    # Three times as long, as at a slider of the speed at a third, and some time to settle.
+    assert robot.begin_levelling() == pytest.approx(5.0 + 3.0 * least_s)
+
+
 # --- the gate
 
 

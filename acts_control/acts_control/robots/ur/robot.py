@@ -19,7 +19,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 
 from acts_control.robots.base import CommandRefusedError, RobotClaim, RobotReading, RobotStoppedError
 from acts_control.robots.ur.config import UrConfig
@@ -43,7 +43,7 @@ _STOP_DECELERATION_RAD_S2 = 4.0
 # How often the robot's watchdog is told that all is well while no other command is sent, in parts of its time.
 _KICKS = 5
 
-# Added to how long the way to the level pose takes at its speed, which itself may be three times as long.
+# Added to how long the way to the level pose takes by its settings, which itself may be three times as long.
 _LEVELLING_S = 5.0
 _LEVELLING_FACTOR = 3.0
 
@@ -173,7 +173,7 @@ class UrRobot:
         level = _finite(config.level_q_rad)
         self._send("moveJ", level, config.homing_speed_rad_s, config.homing_acceleration_rad_s2, True)
         self._kick_s = time.monotonic()
-        return _LEVELLING_S + _LEVELLING_FACTOR * farthest / config.homing_speed_rad_s
+        return _LEVELLING_S + _LEVELLING_FACTOR * _way_s(config, farthest)
 
     def end_levelling(self) -> None:
         """Break that off; the arm comes to rest."""
@@ -339,6 +339,14 @@ _REFUSALS = {
     # The library does not tell the two apart.
     "servoJ": "the robot's program is not running, or the connection is lost",
 }
+
+
+def _way_s(config: UrConfig, farthest_rad: float) -> float:
+    """How long the joint that is farthest from the level pose takes to get there [s]."""
+    speed_rad_s, acceleration_rad_s2 = config.homing_speed_rad_s, config.homing_acceleration_rad_s2
+    if farthest_rad * acceleration_rad_s2 < speed_rad_s**2:
+        return 2.0 * sqrt(farthest_rad / acceleration_rad_s2)  # it brakes before it has come to that speed
+    return farthest_rad / speed_rad_s + speed_rad_s / acceleration_rad_s2
 
 
 def _levelled(q_rad: Sequence[float]) -> tuple[float, ...]:
