@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from math import inf
 
 from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.reference import ReferenceReport
@@ -123,6 +124,8 @@ class ControlLoop:
         # What ended the session asked for, in words; empty while it should go on.
         self._stop_reason = ""
         self._closing = False
+        # When motion ends at the latest, also before the plate is level [s].
+        self._end_by_s = inf
         self._thread = threading.Thread(target=self._run, name="control_loop", daemon=True)
 
     def launch(self) -> None:
@@ -161,9 +164,10 @@ class ControlLoop:
             return True
 
     def close(self, timeout_s: float = 5.0) -> None:
-        """End motion and the thread."""
+        """End motion and the thread; a plate that is not level within three seconds stays as it is."""
         with self._changed:
             self._closing = True
+            self._end_by_s = min(self._end_by_s, self._steady_s() + _ENDING_TIMEOUT_S)
             self._stop_reason = self._stop_reason or "shutting down"
             self._changed.notify_all()
         if self._thread.is_alive():
@@ -254,6 +258,10 @@ class ControlLoop:
         rate = LoopRate(period, self._steady_s, self._sleep)
         while controller.state.phase is not Phase.STOPPED:
             cycle = rate.wait()
+            if cycle.now_s > self._end_by_s:
+                # By its settings levelling may take longer than a process may take to end.
+                self._end_tilting(watch)
+                return f"{controller.state.reason}; levelling was broken off after {_ENDING_TIMEOUT_S:g} s"
             steps += 1
             late += cycle.is_late
             dt = min(max(cycle.dt_s, _MIN_STEP_S), _MAX_PERIODS * period)

@@ -385,3 +385,17 @@ def test_closing_stops_the_robot_in_order(arm: ArmInProcess, make: Make) -> None
     assert (loop.status.phase, loop.status.reason) == (Phase.STOPPED, "shutting down")
     assert arm.calls[-3:] == ORDERLY_END
     assert arm.commands[-1] == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_closing_ends_also_where_levelling_would_take_longer(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("acts_control.ball.loop._ENDING_TIMEOUT_S", 0.1)
+    loop = make(settle_s=5.0, max_tilt_rate_rad_s=0.01, max_tilt_rad=0.05)
+    balance(loop)
+    begin_s = time.monotonic()
+    loop.close(DEADLINE_S)
+    assert time.monotonic() - begin_s < 3.0
+    assert loop.status.phase is Phase.STOPPED
+    assert loop.status.reason == "shutting down; levelling was broken off after 0.1 s"
+    assert arm.calls[-3:] == ORDERLY_END
