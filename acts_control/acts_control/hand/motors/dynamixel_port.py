@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
 
+from serial import SerialTimeoutException
+
 from acts_control.hand.description import Joint
 from acts_control.hand.motors.bus import HandError, HandLostError
 from acts_control.hand.motors.dynamixel_config import DynamixelConfig
@@ -26,6 +28,10 @@ from acts_core.runtime import errno_of, is_multiplexer, is_stale_link, path_show
 
 # A read of the port returns after this time, if not before with all that was asked for. Well below answer_timeout_ms.
 _READ_TIMEOUT_S = 0.001
+
+# What hears nothing of what is sent for so long is gone. A port without such a limit waits without end: an adapter that
+# hangs, or a simulated bus that was stopped, takes no more than some 20 kB.
+_WRITE_TIMEOUT_S = 1.0
 
 _TRIES = 3
 
@@ -87,6 +93,7 @@ class DynamixelPort:
                 self._port.ser.exclusive = True
                 # The library reads in a loop without a pause until an answer is complete: that would fill a core.
                 self._port.ser.timeout = _READ_TIMEOUT_S
+                self._port.ser.write_timeout = _WRITE_TIMEOUT_S
                 # Before 4.1, which ROS does not have, it leaves in the port what came too late: each request from then
                 # on would get the answer to the one before.
                 self._port.clearPort = self._port.ser.reset_input_buffer
@@ -214,10 +221,16 @@ class DynamixelPort:
         except (OSError, termios.error) as error:
             # The library is left in the middle of an exchange: it would call the port busy from now on.
             self.disconnect()
-            number = errno_of(error)
-            # pyserial has no number for a port that is ready to be read and has nothing.
-            words = "it gives nothing more" if number is None else os.strerror(number)
-            raise HandLostError(f"{self._config.port} is gone ({words}); is the cable plugged in?") from error
+            raise HandLostError(f"{self._config.port} is gone ({_how(error)}); is the cable plugged in?") from error
+
+
+def _how(error: Exception) -> str:
+    """How a port is gone, in words."""
+    if isinstance(error, SerialTimeoutException):
+        return f"it has taken nothing for {_WRITE_TIMEOUT_S:g} s"
+    number = errno_of(error)
+    # pyserial has no number for a port that is ready to be read and has nothing.
+    return "it gives nothing more" if number is None else os.strerror(number)
 
 
 def name_of(joint: Joint) -> str:

@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import os
+import threading
+import tty
 from pathlib import Path
 
 import pytest
@@ -14,9 +16,9 @@ from dynamixel_sdk import COMM_SUCCESS, PortHandler
 from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.motors import DynamixelConfig, HandError
+from acts_control.hand.motors import DynamixelConfig, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
-from acts_control.hand.motors.dynamixel_table import D_GAIN, P_GAIN
+from acts_control.hand.motors.dynamixel_table import D_GAIN, GOAL_POSITION, P_GAIN
 
 pytestmark = pytest.mark.slow
 
@@ -70,4 +72,32 @@ def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
         wait_for(lambda: line.ser.in_waiting >= 13, "an answer: 11 bytes, and the value", DEADLINE_S)
         assert port.read(motor, D_GAIN) == 200
     finally:
+        port.close()
+
+
+def test_a_port_that_takes_nothing_more_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acts_control.hand.motors.dynamixel_port._WRITE_TIMEOUT_S", 0.2)
+    nobody_reads, terminal = os.openpty()
+    tty.setraw(terminal)
+    port = DynamixelPort(DynamixelConfig(port=os.ttyname(terminal), answer_timeout_ms=TIMEOUT_MS))
+    port.open()
+    told: list[str] = []
+
+    def send() -> None:
+        try:
+            while True:
+                port.send(GOAL_POSITION, dict.fromkeys(range(16), 0))
+        except HandLostError as error:
+            told.append(str(error))
+
+    # In a thread: it would wait without end.
+    thread = threading.Thread(target=send, daemon=True)
+    thread.start()
+    thread.join(DEADLINE_S)
+    try:
+        assert told == [f"{os.ttyname(terminal)} is gone (it has taken nothing for 0.2 s); is the cable plugged in?"]
+    finally:
+        for end in (nobody_reads, terminal):
+            os.close(end)
+        thread.join(DEADLINE_S)
         port.close()
