@@ -79,6 +79,9 @@ class Moved:
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Sequence[float]:
         return goal_rad
 
+    def waited(self, seconds: float) -> None:
+        pass
+
     def sent(self, began_s: float, sent_s: float) -> None:
         pass
 

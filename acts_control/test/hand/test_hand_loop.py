@@ -8,15 +8,16 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
-from hand_loop_rig import STALE_S, Made, Moved, Running
+from hand_loop_rig import STALE_S, Made, MadeBus, Moved, Running
+from waiting import wait_for
 
-from acts_control.hand.control import HandPhase
+from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
@@ -294,6 +295,44 @@ def test_what_was_commanded_while_the_loop_stood_still_is_not_done(made: Made) -
         return bus.sent[-1][2] > 0.5
 
     until(is_obeyed)
+
+
+class Waiting(Moved):
+    """A behaviour that notes for how long it was told that motors did not answer."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.waited_s: list[float] = []
+
+    def waited(self, seconds: float) -> None:
+        self.waited_s.append(seconds)
+
+
+@pytest.mark.parametrize("behaviour", [None, Waiting()])
+def test_motors_that_do_not_answer_are_no_standstill_of_the_program(behaviour: Waiting | None) -> None:
+    bus, told = MadeBus(), []
+    config = HandLoopConfig(silence_s=10.0, command_stale_after_s=STALE_S)
+    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, sentence: told.append(sentence), behaviour=behaviour)
+    loop.launch()
+
+    def until(condition: Callable[[], bool]) -> None:
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (loop.status, told))
+
+    try:
+        until(lambda: len(bus.sent) > 3)
+        bus.answers_to_lose, begin_s = 10**9, time.monotonic()
+        until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
+        bus.answers_to_lose, sent = 0, len(bus.sent)
+        until(lambda: len(bus.sent) > sent)
+        assert told == []
+        if behaviour is None:
+            loop.command({"index_pip": 0.9})
+            until(lambda: bus.sent[-1][2] > 0.31)
+        else:
+            assert len(behaviour.waited_s) == loop.status.unanswered
+            assert all(0.0 <= seconds <= config.silence_s for seconds in behaviour.waited_s)
+    finally:
+        loop.close()
 
 
 @pytest.mark.parametrize("broken", ["q_rad", "current_ma"])

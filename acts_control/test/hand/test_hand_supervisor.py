@@ -243,6 +243,16 @@ def test_a_closing_hand_whose_program_stood_still_stops_though_touch_is_new() ->
     assert np.array_equal(hand.goal, goal)
 
 
+def test_a_closing_hand_whose_motors_did_not_answer_for_a_moment_closes_on() -> None:
+    hand = a_hand()
+    hand.supervisor.grasp()
+    assert hand.step([], steps=50) is HandState.CLOSING
+    # One lost answer, waited for by answer_timeout_ms 60.
+    hand.now_s += 0.122
+    hand.supervisor.waited(0.122)
+    assert hand.step([], steps=5) is HandState.CLOSING
+
+
 def test_a_holding_hand_whose_program_stood_still_holds_on_and_its_reflexes_begin_anew() -> None:
     hand = a_holding_hand()
     slips = [region("index_distal", 0.8, slip_m=3e-4, slipping=True), *GRIPPED[1:]]

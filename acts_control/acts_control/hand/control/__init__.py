@@ -8,7 +8,6 @@ between closing, holding and avoiding; the reflexes say what they want.
 """
 
 from acts_control.hand.control.behaviour import Behaviour
-from acts_control.hand.control.cycle_times import CycleTimes
 from acts_control.hand.control.loop import HandLoop
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase
@@ -18,7 +17,6 @@ from acts_control.hand.control.touch import no_touch
 
 __all__ = [
     "Behaviour",
-    "CycleTimes",
     "HandLoop",
     "HandLoopConfig",
     "HandPhase",

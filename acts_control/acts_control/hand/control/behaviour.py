@@ -34,5 +34,8 @@ class Behaviour(Protocol):
             Where every joint is to go [rad].
         """
 
+    def waited(self, seconds: float) -> None:
+        """Motors did not answer for so long, and there was no step: nobody stood still [s]."""
+
     def sent(self, began_s: float, sent_s: float) -> None:
         """What `step` asked for has been sent; when its cycle began, and now, by `time.monotonic` [s]."""

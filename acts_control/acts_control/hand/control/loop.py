@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from acts_control.hand.control.behaviour import Behaviour
 from acts_control.hand.control.beyond_limits import RETURN_RAD_S, beyond_reach, to_be_brought_back
+from acts_control.hand.control.commands import JointCommands
 from acts_control.hand.control.fault_memory import FaultMemory
 from acts_control.hand.control.loop_config import HandLoopConfig
 from acts_control.hand.control.status import HandPhase, HandStatus
@@ -61,15 +62,10 @@ class HandLoop:
         self._log = log
         self._on_reading = on_reading
         self._behaviour = behaviour
-        self._index = {joint.name: k for k, joint in enumerate(hand.joints)}
-        self._lock = threading.Lock()
-        self._target: dict[int, float] = {}
-        self._commanded_s = -1e9
-        self._looked_s = 0.0  # when commands were looked at last
-        self._stood_still_s = -1e9  # when they were again, after nobody had done so for long
+        self._commands = JointCommands(hand, config.command_stale_after_s, log)
         self._wish = TorqueWish(is_on=config.autostart)
         self._is_on = False  # whether the torque of a motor may be on
-        self._obeyed_s = 0.0  # when the motors have taken goals last
+        self._refused_since_s = math.inf  # when the motors have begun to take no goals
         self._closing = threading.Event()
         self._faults = FaultMemory(len(hand.joints), config.max_faults)
         self._thread = threading.Thread(target=self._run, name="hand_loop", daemon=True)
@@ -95,23 +91,7 @@ class HandLoop:
         HandError
             For no name, one that the hand does not have, or an angle that is not finite; nothing is changed then.
         """
-        if not angles_rad:
-            raise HandError(f"a command without a joint; the hand's joints are {', '.join(self._index)}")
-        unknown = next((name for name in angles_rad if name not in self._index), None)
-        if unknown is not None:
-            raise HandError(f"the hand has no joint {unknown[:64]!r}; its joints are {', '.join(self._index)}")
-        broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not math.isfinite(angle)]
-        if broken:
-            raise HandError(f"{', '.join(broken)}: angles have to be finite")
-        now_s, stale_after_s = time.monotonic(), self._config.command_stale_after_s
-        with self._lock:
-            if now_s - self._stood_still_s < stale_after_s:
-                return
-            if now_s - self._commanded_s > stale_after_s:
-                self._target.clear()
-            for name, angle in angles_rad.items():
-                self._target[self._index[name]] = self._hand.joints[self._index[name]].clipped(angle)
-            self._commanded_s = now_s
+        self._commands.take(angles_rad)
 
     def enable(self) -> str:
         """Switch the torque on, now or as soon as the hand is connected; why it is still off, or nothing.
@@ -211,7 +191,8 @@ class HandLoop:
     def _serve(self) -> None:
         """Read and command at the rate, until the hand is lost or the loop is to end."""
         period_s = 1.0 / self._config.rate_hz
-        answered_s = time.monotonic()
+        # When they have begun to give no answer: while this program stands still, nobody asks them.
+        silent_since_s = math.inf
         rate = LoopRate(period_s)
         goal: list[float] = []
         try:
@@ -227,10 +208,13 @@ class HandLoop:
                     raise
                 except HandError:
                     self._count(unanswered=1)
-                    if now_s - answered_s > self._config.silence_s:
+                    silent_since_s = min(silent_since_s, now_s)
+                    if now_s - silent_since_s > self._config.silence_s:
                         raise
                     self._obey_release()  # for those that answer
+                    self._note_silence(now_s)
                     continue
+                silent_since_s = math.inf
                 self._set(self.status.phase, self.status.reason, reading=reading)
                 self._on_reading(reading)
                 self._obey_release()
@@ -239,8 +223,6 @@ class HandLoop:
                     goal = []
                 else:
                     goal = self._move(reading, goal, min(dt_s, 4.0 * period_s), now_s)
-                # Either may have taken seconds: the motors have answered all the while.
-                answered_s = time.monotonic()
         finally:
             self._wish.has_gone_off()
             self._release_at_end()
@@ -284,10 +266,11 @@ class HandLoop:
         except HandError:
             # One answer may be lost, as that to a read; the next goals start from those before.
             self._count(unanswered=1)
-            if now_s - self._obeyed_s > self._config.silence_s:
+            self._refused_since_s = min(self._refused_since_s, now_s)
+            if now_s - self._refused_since_s > self._config.silence_s:
                 raise
             return goal
-        self._obeyed_s = now_s
+        self._refused_since_s = math.inf
         if self._behaviour is not None:
             self._behaviour.sent(now_s, time.monotonic())
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(moved))
@@ -304,15 +287,15 @@ class HandLoop:
             return
         self._is_on, began_s = True, time.monotonic()
         self._bus.enable()
-        self._obeyed_s = time.monotonic()
+        took_s, self._refused_since_s = time.monotonic() - began_s, math.inf
         if not self._wish.is_on:
             # Meanwhile somebody has stopped or released it: from here on the hand would hold.
             self._obey_release()
             return
-        with self._lock:
-            self._target.clear()  # what was wanted before is old
-            # Switching on was no standstill; what stopped the motors may have been one, and is yet to be noticed.
-            self._looked_s = self._looked_s + self._obeyed_s - began_s if recovered else self._obeyed_s
+        if recovered:
+            self._commands.begin_again(took_s)
+        else:
+            self._commands.begin()
         for sentence in to_be_brought_back(self._hand, reading):
             self._log("warning", sentence)
         if self._behaviour is not None:
@@ -325,18 +308,7 @@ class HandLoop:
     ) -> tuple[dict[int, float], str]:
         """Where joints are to go, by their numbers, and in words why."""
         if self._behaviour is None:
-            stale_after_s = self._config.command_stale_after_s
-            with self._lock:
-                before_s, self._looked_s = self._looked_s, time.monotonic()
-                still_s = self._looked_s - before_s
-                if still_s > stale_after_s:
-                    # Commands that have waited meanwhile come at once now, as if they were new.
-                    self._target.clear()
-                    self._stood_still_s = self._looked_s
-                    old = f"commands are left out for {stale_after_s:g} s, because they may have waited"
-                    self._log("warning", f"this program stood still for {still_s:.2g} s: {old}")
-                fresh = now_s - self._commanded_s <= stale_after_s
-                return (dict(self._target), "moving as commanded") if fresh else ({}, "holding")
+            return self._commands.targets(now_s)
         wanted = [float(angle) for angle in self._behaviour.step(reading, goal, now_s, dt_s)]
         joints = self._hand.joints
         if len(wanted) != len(joints) or not all(map(math.isfinite, wanted)):
@@ -344,6 +316,15 @@ class HandLoop:
                 self._log("error", f"{_NOT_FINITE}: {wanted}; needed are {len(joints)} finite angles")
             return {}, _NOT_FINITE
         return {k: joint.clipped(angle) for k, (joint, angle) in enumerate(zip(joints, wanted, strict=True))}, "acting"
+
+    def _note_silence(self, now_s: float) -> None:
+        """Motors that do not answer are no standstill of this program."""
+        if self.status.phase is not HandPhase.ENABLED:
+            return
+        if self._behaviour is None:
+            self._commands.look()
+        else:
+            self._behaviour.waited(min(time.monotonic() - now_s, self._config.silence_s))
 
     def _recover(self, reading: HandReading) -> None:
         """Motors have switched themselves off: start them anew, or give up what does it again and again."""
@@ -367,7 +348,7 @@ class HandLoop:
             self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
             began_s = time.monotonic()
             self._bus.recover(k)
-            self._looked_s += time.monotonic() - began_s  # the loop was at work, and did not stand still
+            self._commands.was_at_work(time.monotonic() - began_s)
             self._count(recovered=1)
 
     def _give_up(self, reason: str) -> None:

@@ -191,6 +191,10 @@ class HandSupervisor:
             unfelt=self._touch.unfelt,
         )
 
+    def waited(self, seconds: float) -> None:
+        """See `acts_control.hand.control.Behaviour`."""
+        self._stepped_s += seconds
+
     def step(self, reading: HandReading, goal_rad: Sequence[float], now_s: float, dt_s: float) -> Array:
         """The goals of all joints for now.
 

@@ -19,7 +19,6 @@ from typing import Any
 from std_srvs.srv import Trigger
 
 from acts_control.hand.control import (
-    CycleTimes,
     HandPhase,
     HandSupervisor,
     SupervisorConfig,
@@ -28,6 +27,7 @@ from acts_control.hand.control import (
 )
 from acts_control.hand.description import HandKinematics, hand_description
 from acts_control.hand.motors import MOTORS, HandReading, with_motors
+from acts_control.hand.nodes.cycle_times import CycleTimes
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_control.hand.nodes.torque_services import answered
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
@@ -131,6 +131,10 @@ class TouchedHand:
         if (status.state, status.events) != (before.state, before.events):
             self._on_change()
         return goals
+
+    def waited(self, seconds: float) -> None:
+        """See `acts_control.hand.control.Behaviour`."""
+        self._supervisor.waited(seconds)
 
     def watch(self, now_s: float) -> None:
         """Take touch while the torque is off, so that it is known how old it is; from the loop's own thread."""
