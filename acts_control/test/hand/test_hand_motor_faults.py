@@ -326,6 +326,29 @@ def test_an_answer_that_is_lost_after_motors_took_long_to_start_anew_ends_nothin
     until(lambda: bus.sent[-1][2] > 0.31)
 
 
+def test_why_the_torque_is_off_is_told_also_after_the_hand_was_connected_anew(
+    made: Made, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    assert loop.enable() == ""
+    release, silent = bus.release, [True]
+
+    def one_is_silent() -> None:
+        release()
+        if silent:
+            silent.clear()
+            raise HandError("motors 14 (thumb_mcp) did not answer when they were switched off")
+
+    monkeypatch.setattr(bus, "release", one_is_silent)
+    loop.release()
+    why = "released by request"
+    until(lambda: bus.connects == 2 and loop.status.phase is HandPhase.RELEASED)
+    cycles = loop.status.cycles
+    until(lambda: loop.status.cycles > cycles + 5)
+    assert (bus.connects, loop.status.reason) == (2, why)
+
+
 @pytest.mark.parametrize("lost", ["read", "command"])
 def test_an_answer_that_is_lost_after_this_program_stood_still_ends_nothing(
     made: Made, monkeypatch: pytest.MonkeyPatch, lost: str

@@ -75,7 +75,7 @@ class JointCommands:
             self._looked_s += for_s
 
     def look(self) -> None:
-        """Whether this program stood still: commands that have waited meanwhile come at once now, as if they were new."""
+        """Notice where this program stood still: commands that have waited meanwhile come at once, as if new."""
         with self._lock:
             before_s, self._looked_s = self._looked_s, time.monotonic()
             still_s = self._looked_s - before_s

@@ -185,7 +185,8 @@ class HandLoop:
                 self._closing.wait(self._config.connect_retry_s)
                 continue
             self._is_on = False
-            self._set(HandPhase.RELEASED, "connected")
+            # Why it stays off, also where that was said before the hand was lost.
+            self._set(HandPhase.RELEASED, (not self._wish.is_on and self._wish.why_off) or "connected")
             return
 
     def _serve(self) -> None:
