@@ -31,6 +31,8 @@ from acts_core.settings import setting
 _HOMING_PERIOD_S = 0.02
 _ENDING_PERIOD_S = 0.002
 _ENDING_TIMEOUT_S = 3.0
+# What held up this process for longer may have held up whoever hands on what the robot says, too.
+_LONGEST_LOOK_S = 0.03
 # In the unit of the joints, rad or m.
 _HOMED = 0.002
 _STANDING_STILL = 2e-4
@@ -340,7 +342,7 @@ class ControlLoop:
         while self._robot.is_busy:
             self._sleep(_ENDING_PERIOD_S)
             last, before = self._steady_s(), last
-            loss = watch.loss(self._robot.read(), last - before)
+            loss = watch.loss(self._robot.read(), min(last - before, _LONGEST_LOOK_S))
             if loss:
                 raise RobotError(loss)
             if last > end:

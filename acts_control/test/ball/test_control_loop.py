@@ -331,6 +331,35 @@ def test_a_robot_that_does_not_end_its_motion_is_cut_off(
     assert arm.calls[-2:] == ["end_tilting", "disconnect"]
 
 
+def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop, still_s = make(autostart=False), [0.0]
+
+    def sleep(seconds: float) -> None:
+        if arm.is_busy and not still_s[0]:
+            # Neither this process nor that which hands on what the robot says goes on meanwhile.
+            still_s[0], arm.frozen = 0.5, True
+        elif arm.frozen:
+            arm.frozen = arm.is_busy = False
+        time.sleep(seconds)
+
+    end_tilting = arm.end_tilting
+
+    def end() -> None:
+        end_tilting()
+        arm.is_busy = True
+
+    monkeypatch.setattr(arm, "end_tilting", end)
+    monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
+    monkeypatch.setattr(loop, "_sleep", sleep)
+    assert loop.start()
+    balance(loop)
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+
+
 def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
     loop = make()
     balance(loop)
