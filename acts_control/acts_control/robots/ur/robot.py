@@ -80,6 +80,8 @@ class UrRobot:
         self._silent_s = 0.0
         # When the robot's watchdog is to be told next [s]; never while commands are sent anyway, or motion is ended.
         self._kick_s = inf
+        # Whether the move to the level pose may not have ended yet.
+        self._is_levelling = False
         # Whether an attempt to connect may have left our program running on the robot.
         self._is_left_running = False
 
@@ -173,11 +175,13 @@ class UrRobot:
         level = _finite(config.level_q_rad)
         self._send("moveJ", level, config.homing_speed_rad_s, config.homing_acceleration_rad_s2, True)
         self._kick_s = time.monotonic()
+        self._is_levelling = True
         return _LEVELLING_S + _LEVELLING_FACTOR * _way_s(config, farthest)
 
     def end_levelling(self) -> None:
         """Break that off; the arm comes to rest."""
         self._kick_s = inf
+        self._is_levelling = False
         self._send("stopJ", _STOP_DECELERATION_RAD_S2)
 
     def tilt(self, tilt_x_rad: float, tilt_y_rad: float) -> tuple[float, ...]:
@@ -193,6 +197,10 @@ class UrRobot:
         fault = self._gate.fault(q_rad)
         if fault:
             raise CommandRefusedError(fault)
+        if self._is_levelling:
+            # An arm that moves slowly, as with the speed turned down at the panel, seems to stand still before its move
+            # has ended. The robot ends a program of which two threads move the arm.
+            self.end_levelling()
         self._kick_s = inf
         # Speed and acceleration are ignored by the script.
         step_s = 1.0 / config.control_rate_hz
