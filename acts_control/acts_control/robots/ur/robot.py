@@ -200,7 +200,8 @@ class UrRobot:
         if self._is_levelling:
             # An arm that moves slowly, as with the speed turned down at the panel, seems to stand still before its move
             # has ended. The robot ends a program of which two threads move the arm.
-            self.end_levelling()
+            self._is_levelling = False
+            self._send("end_move", _STOP_DECELERATION_RAD_S2)
         self._kick_s = inf
         # Speed and acceleration are ignored by the script.
         step_s = 1.0 / config.control_rate_hz

@@ -10,9 +10,9 @@ this process for one connection, and kills it when that is over: whatever the li
 is sent any more.
 
 Both talk over a socket, one JSON list a packet. To this process: ``watch`` (read the robot), then ``take_control``,
-then any method of RTDEControlInterface with its arguments; ``end_program`` at any time. From it: ``["reading", ...]``
-whenever the robot has told something new, and after every command, in their order, ``["done", result]`` or
-``["failed", text]``.
+then any method of RTDEControlInterface with its arguments, or ``end_move``; ``end_program`` at any time. From it:
+``["reading", ...]`` whenever the robot has told something new, and after every command, in their order,
+``["done", result]`` or ``["failed", text]``.
 
 When the other process vanishes, this one ends the robot's program.
 """
@@ -68,7 +68,8 @@ class _Connection:
         """Do what a packet says, and answer."""
         own = {"watch": self._watch, "take_control": self._take_control, "end_program": self.end_program}
         try:
-            result = (own.get(name) or getattr(self._control, name))(*arguments)
+            method = self._end_move if name == "end_move" else own.get(name) or getattr(self._control, name)
+            result = method(*arguments)
         except ImportError as error:
             self._tell("failed", f"ur_rtde cannot be imported ({error}); install it with: pip install ur-rtde")
         except ValueError as error:
@@ -106,6 +107,11 @@ class _Connection:
         signal.alarm(_CONNECT_S)
         self._control = rtde_control.RTDEControlInterface(self._host, self._rate_hz)
         signal.alarm(0)
+
+    def _end_move(self, deceleration_rad_s2: float) -> None:
+        """End an asynchronous move; the robot is told nothing where that has ended by itself."""
+        if self._control.getAsyncOperationProgress() >= 0:
+            self._control.stopJ(deceleration_rad_s2)
 
     def _tell_readings(self) -> None:
         seen = None
