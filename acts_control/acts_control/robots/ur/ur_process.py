@@ -68,7 +68,7 @@ class _Connection:
         """Do what a packet says, and answer."""
         own = {"watch": self._watch, "take_control": self._take_control, "end_program": self.end_program}
         try:
-            method = self._end_move if name == "end_move" else own.get(name) or getattr(self._control, name)
+            method: Any = self._end_move if name == "end_move" else own.get(name) or getattr(self._control, name)
             result = method(*arguments)
         except ImportError as error:
             self._tell("failed", f"ur_rtde cannot be imported ({error}); install it with: pip install ur-rtde")
