@@ -328,7 +328,8 @@ class OutlineTracer:
         return np.clip(shifted, (first_row - 0.5, first_col - 0.5), (end_row - 0.5, end_col - 0.5))
 
     def _outline(self, track: _Track, corners: Array, time_s: float) -> Outline | None:
-        if not len(corners):
+        # Of an edge that is followed beyond its patch, little or nothing is left within it.
+        if not len(corners) or abs(area(corners)) < _LEAST_AREA:
             return None
         x_m = np.asarray(self._geometry.x_m(corners[:, 1]), dtype=np.float64)
         y_m = np.asarray(self._geometry.y_m(corners[:, 0]), dtype=np.float64)

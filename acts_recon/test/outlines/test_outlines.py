@@ -235,6 +235,23 @@ def test_the_contour_of_what_is_pressed_hardest_at_the_edge_of_the_array_does_no
     assert GEOMETRY.row_of(outline.y_m).min() == pytest.approx(-0.5)
 
 
+def test_an_edge_that_is_followed_beyond_the_array_has_no_outline() -> None:
+    """It was a line along the edge of the array, with no area."""
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0, OutlinesConfig(outlines_fast_s=10.0))
+    counts = np.zeros((32, 32), dtype=np.uint16)
+    counts[14:19, 0] = 300
+    found = [traced(tracer, counts, 1e-3 * number) for number in range(3)]
+    # From now on only what lies beside it is measured, and untouched.
+    beside = ALL.reshape(32, 32)[10:22, 3:6].ravel()
+    for number in range(3, 25):
+        untouched = np.zeros(beside.size, dtype=np.uint16)
+        found.append(tracer.step(beside, untouched, 1e-3 * number, 1e-3, counts.astype(np.float32)))
+    assert [len(outlines) for outlines in found[:10]] == [1] * 10
+    areas = [outline.area_m2 / GEOMETRY.taxel_area_m2 for outlines in found for outline in outlines]
+    assert len(areas) < len(found)
+    assert min(areas) > 0.25
+
+
 def test_what_rests_does_not_grow_when_it_is_too_old_for_its_edge_to_be_followed() -> None:
     tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0, OutlinesConfig(outlines_fast_s=0.0505))
     found = [traced(tracer, disc(15.3, 12.6, 4.4), 1e-3 * number)[0] for number in range(100)]
