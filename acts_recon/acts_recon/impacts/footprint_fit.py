@@ -89,7 +89,7 @@ class Footprint:
         if square == 0.0:
             return float(np.inf)
         across = np.array([-self.velocity_m_s[1], self.velocity_m_s[0]]) / square
-        return float(np.sqrt(across @ self.covariance @ across))
+        return math.sqrt(max(float(across @ self.covariance @ across), 0.0))
 
 
 class _Model:
@@ -184,7 +184,9 @@ def fit_footprint(
     scores = np.zeros((clusters.size, state.size))
     np.add.at(scores, cluster, jacobian[: taxel.size] * model.residuals(state)[: taxel.size, None])
     inverse = np.linalg.pinv(jacobian.T @ jacobian)
-    covariance = inverse @ (scores.T @ scores) @ inverse * clusters.size / max(clusters.size - state.size, 1)
+    # As a square, no variance is below 0, also where the samples say next to nothing of some of the numbers.
+    spread = inverse @ scores.T
+    covariance = spread @ spread.T * clusters.size / max(clusters.size - state.size, 1)
     top_n, width_mm = np.exp(state[4 : 4 + nodes]), np.exp(state[4 + nodes :])
     forces_n = _VOLUME * top_n * width_mm**2 / (1e6 * taxel_area_m2)
     # Of the force, which goes with amplitude times the square of the width.

@@ -302,6 +302,20 @@ def test_samples_of_one_moment_tell_no_footprint() -> None:
     assert fit_footprint(time_s, x_m, y_m, np.ones(16), np.full(16, 0.1), np.arange(16), 2, 2.5e-5) is None
 
 
+@pytest.mark.parametrize("since_s", [0.0, 1.7e9])
+@pytest.mark.parametrize("span_s", [1e-4, 1e-3])
+def test_no_variance_of_a_velocity_is_below_0(span_s: float, since_s: float) -> None:
+    """Where one taxel reads all of the force nothing is known of a velocity: its standard deviation was not a number."""
+    rows, cols = np.indices((5, 5), dtype=np.float64).reshape(2, 25)
+    force_n, noise_n = np.full(25, 0.01), np.full(25, 6e-4)
+    force_n[12], noise_n[12] = 30.0, 4.6
+    time_s = since_s + np.linspace(0.0, span_s, 25)
+    fitted = fit_footprint(time_s, 4.4e-3 * cols, 4.4e-3 * rows, force_n, noise_n, np.arange(25), 1, 1.9e-5)
+    assert fitted is not None
+    assert np.diag(fitted.covariance).min() >= 0.0
+    assert not math.isnan(fitted.direction_sd_rad)
+
+
 @pytest.mark.parametrize(
     ("name", "own", "kind"),
     [
