@@ -184,20 +184,21 @@ class ImpactDetector:
                 self._next_number = self._next_number % (_NUMBERS - 1) + 1
                 self._touches.append(touch)
             parts.setdefault(touch.number, []).append(blob)
-        told = self._joined(parts, time_s)
+        begun = []
         for touch in list(self._touches):
             blobs = parts.get(touch.number, [])
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
                 touch.add(time_s, blobs, image, self.config)
                 if touch.began_s == time_s:
                     if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
-                        told.append(self._so_far(touch))
+                        begun.append(self._so_far(touch))
                     else:
                         touch.is_told = True  # all there is to tell: nothing
             elif not touch.frames_seen:
                 # The image goes on showing what was measured before: that is no new touch.
                 self._touches.remove(touch)
-        return told
+        # After those that are no touch have gone: none joins one of them.
+        return self._joined(parts, time_s) + begun
 
     def _joined(self, parts: dict[int, list[TrackedBlob]], time_s: float) -> list[Impact]:
         """Tell of touches whose contacts have grown into that of another, and forget them."""

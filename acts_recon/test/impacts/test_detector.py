@@ -316,6 +316,23 @@ def test_no_variance_of_a_velocity_is_below_0(span_s: float, since_s: float) -> 
     assert not math.isnan(fitted.direction_sd_rad)
 
 
+def test_a_touch_joins_none_that_is_no_touch() -> None:
+    """What an image shows without a sample is no touch, and nothing goes on as that."""
+    detector = ReconstructionSettings(touch_counts=25).impact_detector(ReconstructionSettings().recovery())
+    told: list[Impact] = []
+    for number in range(30):
+        image, age_s = (np.full((32, 32), value, dtype=np.float32) for value in (0.0, 1.0))
+        measured = np.zeros((32, 32), dtype=np.float32)
+        age_s[0, 0] = age_s[16, 16] = 0.0
+        if 10 <= number < 20:
+            image[16, 16] = measured[16, 16] = 300.0
+        if number == 15:
+            age_s[16, 16] = 0.001
+            image[4:28, 14:32] = 300.0
+        told += detector.step(100.0 + 1e-3 * number, 5e-4, image, None, age_s, measured)
+    assert [(one.number, one.is_over, one.joined) for one in told] == [(1, False, 0), (1, True, 0)]
+
+
 @pytest.mark.parametrize(
     ("name", "own", "kind"),
     [
