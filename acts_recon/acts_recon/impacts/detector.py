@@ -147,7 +147,7 @@ class ImpactDetector:
         ArrayError
             When image or sigma are of another kind or size.
         """
-        if self._before_s is not None and not 0.0 < time_s - self._before_s <= LONGEST_PAUSE_S:
+        if self._before_s is not None and not 0.0 <= time_s - self._before_s <= LONGEST_PAUSE_S:
             self.reset()
         before_s = time_s - duration_s if self._before_s is None else self._before_s
         self._before_s = time_s

@@ -166,7 +166,7 @@ class OutlineTracer:
 
     def _follows(self, end_s: float) -> bool:
         """Whether a time lies soon after that of the frame before."""
-        return self._before_s is None or 0.0 < end_s - self._before_s <= LONGEST_PAUSE_S
+        return self._before_s is None or 0.0 <= end_s - self._before_s <= LONGEST_PAUSE_S
 
     def step(
         self,
@@ -339,5 +339,7 @@ class OutlineTracer:
         before = track.last
         if before is None:
             return outline
-        growth = (outline.area_m2 - before.area_m2) / max(time_s - before.time_s, 1e-9)
+        passed_s = time_s - before.time_s
+        # Of two frames of one time nobody knows how fast it grew in between.
+        growth = (outline.area_m2 - before.area_m2) / passed_s if passed_s > 0 else before.growth_m2_s
         return Outline(track.number, time_s, outline.x_m, outline.y_m, growth)

@@ -50,7 +50,7 @@ class SlipDetector:
         Parameters
         ----------
         time_s : float
-            Its time, later than that of the one before; after one that is not, everything begins anew [s].
+            Its time; where it goes back, or on by more than half a second, everything begins anew [s].
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             Counts above the baseline, finite; not kept.
 

@@ -151,8 +151,7 @@ class SlipWatch:
         Parameters
         ----------
         time_s : float
-            Its time, later than that of the one before; after one that is not, or half a second and more after the one
-            before, everything begins anew [s].
+            Its time; where it goes back, or on by more than half a second, everything begins anew [s].
         values : np.ndarray [shape=(rows, cols), dtype=float32]
             Last measurement of every taxel, counts above the baseline, finite; not kept.
         counts : np.ndarray [shape=(patches,), dtype=float64]
@@ -177,7 +176,7 @@ class SlipWatch:
                 raise ArrayError(
                     f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
                 )
-        if not 0.0 < time_s - self._time_s <= LONGEST_PAUSE_S:
+        if not 0.0 <= time_s - self._time_s <= LONGEST_PAUSE_S:
             self.reset()
         self._time_s = time_s
         kernels.update(time_s, values, ages, self._memory)

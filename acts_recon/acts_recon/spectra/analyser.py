@@ -117,7 +117,7 @@ class SpectrumAnalyser:
         """
         require_times(end_s, duration_s)
         placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
-        if self._frames and not 0.0 < end_s - self._frames[-1].end_s <= LONGEST_PAUSE_S:
+        if self._frames and not 0.0 <= end_s - self._frames[-1].end_s <= LONGEST_PAUSE_S:
             self._frames.clear()
         self._frames.append(PlacedFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
         while self._frames[0].end_s < end_s - self.config.spectra_window_s:
@@ -244,7 +244,8 @@ def _in_one(frames: tuple[PlacedFrame, ...]) -> _Window:
     places, counts = (np.concatenate([frame[k] for frame in frames]) for k in (2, 3))
     rounds = _rounds(sizes, places)
     # Within frames that repeat the pace is even, also where frames are lost.
-    frame_s = float(np.median(durations_s if rounds > 1 else np.diff(ends_s)))
+    steps_s = np.diff(ends_s)
+    frame_s = float(np.median(durations_s if rounds > 1 else steps_s[steps_s > 0]))
     return _Window(time_s, places, counts, max(frame_s / rounds, 1e-6))
 
 

@@ -260,6 +260,18 @@ def test_what_rests_does_not_grow_when_it_is_too_old_for_its_edge_to_be_followed
     assert [outline.growth_m2_s for outline in found[51:]] == [0.0] * 49
 
 
+def test_an_outline_goes_on_in_a_frame_of_the_time_of_the_one_before() -> None:
+    """So stamps are that lie a nanosecond apart."""
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
+    before, same, after = (
+        traced(tracer, disc(15.3, 12.6, 3.0 + 0.1 * number), 1.7e9 + time_s)[0]
+        for number, time_s in enumerate((0.0, 0.0, 1e-3))
+    )
+    assert before.number == same.number == after.number
+    assert same.growth_m2_s == before.growth_m2_s
+    assert 0.0 < after.growth_m2_s < 1.0
+
+
 @settings(max_examples=10, deadline=None)
 @given(data=st.data())
 def test_any_frames_have_finite_outlines(data: st.DataObject) -> None:

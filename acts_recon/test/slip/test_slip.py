@@ -203,3 +203,12 @@ def test_a_lost_frame_of_a_slow_recording_hides_no_slip() -> None:
     for k in (0, 1, 2, 3, 4, 5, 7):
         told.append(detector.step(k / 9.0, press(3.4, 3.0 + 0.08 * max(k - 5, 0))).slipping)
     assert told == [False] * 6 + [True]
+
+
+def test_an_image_of_the_time_of_the_one_before_begins_nothing_anew() -> None:
+    """So stamps are that lie a nanosecond apart."""
+    detector = SlipDetector(SIDE, SIDE, PITCH_M)
+    found = [detector.step(1.7e9 + 1e-3 * number, press(3.5, 3.0 + 0.01 * number)) for number in range(80)]
+    same = detector.step(1.7e9 + 1e-3 * 79, press(3.5, 3.8))
+    after = detector.step(1.7e9 + 1e-3 * 80, press(3.5, 3.8))
+    assert [slip.slipping for slip in (found[-1], same, after)] == [True] * 3

@@ -61,6 +61,19 @@ def heard(tones: dict[float, float], **options: Any) -> Spectrum:
     return spectrum
 
 
+def test_a_frame_of_the_time_of_the_one_before_ends_no_window() -> None:
+    """So stamps are that lie a nanosecond apart."""
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
+    hear(analyser, {50.0: 0.5})
+    before_s = analyser.window()[-1].end_s
+    taxel, counts = np.array(CONTACT[:1], dtype=np.uint16), np.array([300], dtype=np.uint16)
+    for number in range(1000):
+        analyser.add(taxel, counts, before_s + 1e-9 * number, FRAME_S)
+    (spectrum,) = analyser.spectra()
+    assert spectrum.sample_rate_hz == pytest.approx(1.0 / FRAME_S, rel=1e-3)
+    assert spectrum.peaks[0].frequency_hz == pytest.approx(50.0, abs=0.5)
+
+
 @settings(max_examples=6, deadline=None)
 @given(hz=st.floats(10.0, 420.0), size=st.floats(0.05, 1.0), seed=st.integers(0, 1000))
 def test_a_tone_is_found_with_its_uncertainty(hz: float, size: float, seed: int) -> None:
