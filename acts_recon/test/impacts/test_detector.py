@@ -305,7 +305,7 @@ def test_samples_of_one_moment_tell_no_footprint() -> None:
 @pytest.mark.parametrize("since_s", [0.0, 1.7e9])
 @pytest.mark.parametrize("span_s", [1e-4, 1e-3])
 def test_no_variance_of_a_velocity_is_below_0(span_s: float, since_s: float) -> None:
-    """Where one taxel reads all of the force nothing is known of a velocity: its standard deviation was not a number."""
+    """Where one taxel reads all of the force, nothing is known of a velocity: its deviation was not a number."""
     rows, cols = np.indices((5, 5), dtype=np.float64).reshape(2, 25)
     force_n, noise_n = np.full(25, 0.01), np.full(25, 6e-4)
     force_n[12], noise_n[12] = 30.0, 4.6
