@@ -149,7 +149,7 @@ class ImpactDetector:
         """
         if self._before_s is not None and not 0.0 <= time_s - self._before_s <= LONGEST_PAUSE_S:
             self.reset()
-        before_s = time_s - duration_s if self._before_s is None else self._before_s
+        before_s = time_s - duration_s if self._before_s is None or self._before_s == time_s else self._before_s
         self._before_s = time_s
         self._frame_s = duration_s
         self._period_s = time_s - before_s

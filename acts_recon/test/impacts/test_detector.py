@@ -333,16 +333,18 @@ def test_a_touch_joins_none_that_is_no_touch() -> None:
     assert [(one.number, one.is_over, one.joined) for one in told] == [(1, False, 0), (1, True, 0)]
 
 
-def test_a_touch_goes_on_in_a_frame_of_the_time_of_the_one_before() -> None:
+@pytest.mark.parametrize("same", [10, 15])
+def test_a_touch_begins_and_goes_on_in_a_frame_of_the_time_of_the_one_before(same: int) -> None:
     """So stamps are that lie a nanosecond apart, as of a driver whose estimate of the delay becomes shorter."""
     detector = ReconstructionSettings(touch_counts=25).impact_detector(ReconstructionSettings().recovery())
     told: list[Impact] = []
     for number in range(30):
         image = np.zeros((32, 32), dtype=np.float32)
         image[16, 16] = 300.0 * (10 <= number < 20)
-        time_s = 1.7e9 + 1e-3 * (14 if number == 15 else number)
+        time_s = 1.7e9 + 1e-3 * (number - (number == same))
         told += detector.step(time_s, 5e-4, image, None, np.zeros_like(image), image)
     assert [(one.number, one.is_over) for one in told] == [(1, False), (1, True)]
+    assert 1e-4 < told[0].onset_sd_s < 1e-3
 
 
 @pytest.mark.parametrize(
