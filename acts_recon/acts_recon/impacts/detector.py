@@ -189,7 +189,7 @@ class ImpactDetector:
             blobs = parts.get(touch.number, [])
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
                 touch.add(time_s, blobs, image, self.config)
-                if touch.began_s == time_s:
+                if len(touch.rows) == 1:
                     if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
                         begun.append(self._so_far(touch))
                     else:

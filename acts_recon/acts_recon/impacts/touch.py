@@ -184,6 +184,8 @@ def _zero(force: Force, outer: int, inner: int) -> float | None:
     if time_s.size < 2 or not 0 < force_n[outer] < force_n[inner]:
         return None
     small, large = (float(force_n[k]) ** (1 / _RISE_POWER) for k in (outer, inner))
+    if small == large:  # by rounding
+        return None
     return float(time_s[outer] - (time_s[inner] - time_s[outer]) * small / (large - small))
 
 

@@ -20,6 +20,7 @@ from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector,
 from acts_recon.impacts.footprint_fit import fit_footprint
 from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
+from acts_recon.impacts.touch import Touch
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 
 Array = NDArray[np.float64]
@@ -294,6 +295,13 @@ def test_taxels_around_a_place_are_as_many_whatever_their_pitches(pitch_m: float
     assert samples.untouched_s(x_m, y_m, 0, 99.0, 101.0).size == 21
 
 
+def test_two_forces_that_are_next_to_equal_tell_no_onset() -> None:
+    force_n = np.array([0.2, np.nextafter(0.2, 1.0)])
+    with np.errstate(all="raise"):
+        onset_s, onset_sd_s = Touch(1, 0, 1.0, 0.999).onset(np.zeros(0), (np.array([1.0, 1.001]), force_n))
+    assert (onset_s, onset_sd_s) == pytest.approx((0.9995, 0.001 / math.sqrt(12)))
+
+
 def test_samples_of_one_moment_tell_no_footprint() -> None:
     rows, cols = np.indices((4, 4), dtype=np.float64).reshape(2, 16)
     # As near each other as two numbers can be at the time of today.
@@ -333,7 +341,7 @@ def test_a_touch_joins_none_that_is_no_touch() -> None:
     assert [(one.number, one.is_over, one.joined) for one in told] == [(1, False, 0), (1, True, 0)]
 
 
-@pytest.mark.parametrize("same", [10, 15])
+@pytest.mark.parametrize("same", [10, 11, 15])
 def test_a_touch_begins_and_goes_on_in_a_frame_of_the_time_of_the_one_before(same: int) -> None:
     """So stamps are that lie a nanosecond apart, as of a driver whose estimate of the delay becomes shorter."""
     detector = ReconstructionSettings(touch_counts=25).impact_detector(ReconstructionSettings().recovery())
