@@ -188,8 +188,9 @@ class ImpactDetector:
         for touch in list(self._touches):
             blobs = parts.get(touch.number, [])
             if blobs and self._is_felt(touch, blobs, time_s, is_sampled):
+                is_first = not len(touch.rows)
                 touch.add(time_s, blobs, image, self.config)
-                if len(touch.rows) == 1:
+                if is_first:
                     if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
                         begun.append(self._so_far(touch))
                     else:

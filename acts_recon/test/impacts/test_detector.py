@@ -295,6 +295,16 @@ def test_taxels_around_a_place_are_as_many_whatever_their_pitches(pitch_m: float
     assert samples.untouched_s(x_m, y_m, 0, 99.0, 101.0).size == 21
 
 
+def test_a_touch_begins_once_also_where_frames_are_longer_apart_than_an_impact_lasts() -> None:
+    detector = ReconstructionSettings(touch_counts=25).impact_detector(ReconstructionSettings().recovery())
+    told: list[Impact] = []
+    for number in range(30):
+        image = np.zeros((32, 32), dtype=np.float32)
+        image[16, 16] = 300.0 * (10 <= number < 20)
+        told += detector.step(0.2 * number, 0.1, image, None, np.zeros_like(image), image)
+    assert [(one.number, one.is_over) for one in told] == [(1, False), (1, True)]
+
+
 def test_two_forces_that_are_next_to_equal_tell_no_onset() -> None:
     force_n = np.array([0.2, np.nextafter(0.2, 1.0)])
     with np.errstate(all="raise"):
