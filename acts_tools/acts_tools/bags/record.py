@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Mapping
 from contextlib import closing
 from datetime import datetime
 from pathlib import Path
@@ -76,6 +77,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     from acts_ros.bags.recorder import Recorder
     from acts_ros.bags.writing import BagWriter, require_new
     from acts_ros.executor import spin_for
+    from acts_tools.running.near_names import NOTICE_S, near_topic
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
@@ -90,24 +92,32 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
         recorder = Recorder(node, bag, topics, _say)
         _say(f"recording to {path}, Ctrl-C ends it")
         started_s = time.monotonic()
+        is_told = False
         with closing(recorder):
             while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
+                if not is_told and time.monotonic() - started_s > NOTICE_S:
+                    is_told = True
+                    for topic in recorder.missing():
+                        _say(f"not there yet: {topic}, no publisher found{near_topic(node, topic)}")
                 recorder.discover()
                 spin_for(executor, _TURN_S)
                 bag.flush()
             ended_s = time.monotonic()
-    _summarise(recorder, bag, started_s, ended_s)
+        hints = {topic: near_topic(node, topic) for topic in recorder.missing()}
+    _summarise(recorder, bag, hints, started_s, ended_s)
     return 0 if recorder.is_complete else 1
 
 
-def _summarise(recorder: Recorder, bag: BagWriter, started_s: float, ended_s: float) -> None:
+def _summarise(
+    recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], started_s: float, ended_s: float
+) -> None:
     records = sorted(recorder.records.values(), key=lambda record: record.topic)
     width = max((len(record.topic) for record in records), default=0)
     for record in records:
         lost = "loss not known" if record.lost is None else f"{record.lost} lost"
         _say(f"{record.topic:{width}}  {record.received:8d} messages  {lost}")
     for topic in recorder.missing():
-        _say(f"never appeared: {topic}, no publisher was found")
+        _say(f"never appeared: {topic}, no publisher was found{hints[topic]}")
     for topic in recorder.silent():
         _say(f"no message: {topic} had a publisher, but nothing came")
     for record in records:

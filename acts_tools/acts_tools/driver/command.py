@@ -14,6 +14,7 @@ from acts_core.files import path_of
 from acts_core.names import full_name
 from acts_core.settings import from_text, is_given
 from acts_core.skin import LAYOUTS, layout_path
+from acts_tools.running.near_names import did_you_mean
 
 _FOUND_S = 10.0
 _ANSWER_S = 30.0
@@ -99,7 +100,7 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     for word in words:
         name, is_given, text = word.partition("=")
         if not is_given or name not in BOARD_PARAMETERS:
-            raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}")
+            raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}{did_you_mean(name, BOARD_PARAMETERS)}")
         if name in values:
             raise SettingsError(f"{word}: {name} is given twice; give it once")
         text = _ABSOLUTE[name](text) if name in _ABSOLUTE else text

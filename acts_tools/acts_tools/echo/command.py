@@ -56,6 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_ros.executor import spin_for
     from acts_tools.echo.inbox import Inbox
     from acts_tools.echo.message_text import message_text
+    from acts_tools.running.near_names import NOTICE_S, near_topic
     from acts_tools.running.node import command_node
     from acts_tools.running.stopping import StopFlag
 
@@ -63,10 +64,15 @@ def run(arguments: argparse.Namespace) -> int:
     is_watched = sys.stdout.isatty()
     with StopFlag() as stop, command_node("acts_echo") as (node, executor):
         inbox = Inbox(node, topic)
-        end_s = float("inf") if arguments.duration is None else time.monotonic() + arguments.duration
+        begin_s, is_told = time.monotonic(), False
+        end_s = float("inf") if arguments.duration is None else begin_s + arguments.duration
         while not stop.is_set and printed != arguments.number and time.monotonic() < end_s:
             inbox.discover()
             spin_for(executor, min(_TURN_S, max(end_s - time.monotonic(), 0.001)))
+            if not (printed or inbox.is_found or is_told) and time.monotonic() - begin_s > NOTICE_S:
+                hint = near_topic(node, topic) or "."
+                print(f"{topic}: no publisher found yet{hint} Ctrl-C ends the waiting", file=sys.stderr)
+                is_told = True
             # Printed here, not in the callback: rclpy would report a reader that has ended (`| head`) as an error.
             for left_out, message in due(list(inbox.take()), is_watched):
                 if left_out:
@@ -75,8 +81,9 @@ def run(arguments: argparse.Namespace) -> int:
                 printed += 1
                 if stop.is_set or printed == arguments.number:
                     break
-    if not printed:
-        print(f"{topic}: {'no message came' if inbox.is_found else 'no publisher found'}", file=sys.stderr)
+        if not printed:
+            what = "no message came" if inbox.is_found else f"no publisher found{near_topic(node, topic)}"
+            print(f"{topic}: {what}", file=sys.stderr)
     return 0 if printed else 1
 
 

@@ -19,6 +19,7 @@ from pathlib import Path
 from acts_core.errors import LaunchError
 
 _OWN_VARIABLE = "ACTS_LAUNCH_OWN"
+_OURS = "acts_bringup"
 _TIMEOUTS = ("sigterm_timeout", "sigkill_timeout")
 
 
@@ -95,6 +96,17 @@ def _hand_over(arguments: argparse.Namespace) -> int:
     os.execvp("ros2", ["ros2", "launch", *options, arguments.package, *arguments.words])
 
 
+def _is_ours(file: str) -> bool:
+    """Whether a word that is no path names one of our launch files: the package before it was left out."""
+    from acts_ros.processes import packages
+
+    try:
+        packages.launch_file(_OURS, file, os.environ)
+    except LaunchError:
+        return False
+    return "/" not in file
+
+
 def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
     """The launch file and the remaining words; a path has precedence over a package of the same name."""
     from acts_ros.processes import packages
@@ -102,7 +114,8 @@ def _find_file(package: str, words: list[str]) -> tuple[Path, list[str]]:
     if Path(package).is_file():
         return Path(package).absolute(), words
     if "/" in package or package.endswith(".xml"):
-        raise LaunchError(f"the launch file '{package}' does not exist")
+        hint = f"; did you mean acts launch {_OURS} {package}?" if _is_ours(package) else ""
+        raise LaunchError(f"the launch file '{package}' does not exist{hint}")
     if not words or ":=" in words[0]:
         share = packages.share(package, os.environ)
         there = ", ".join(sorted(path.name for path in share.rglob("*.launch.xml"))) or "none"

@@ -93,7 +93,8 @@ def _print(
         return
     width = max(map(len, topics))
     for topic in topics:
-        print(f"{topic:{width}}  {in_words(intervals.get(topic))}", flush=True)
+        hint = listener.hints.get(topic, "")
+        print(f"{topic:{width}}  {in_words(intervals.get(topic))}{hint}", flush=True)
     for name, words in listener.complaints.items():
         print(f"  {complaint_in_words(name, words, ages_s[name])}", flush=True)
 

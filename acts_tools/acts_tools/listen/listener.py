@@ -19,6 +19,7 @@ from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription, is_too_strict
 from acts_ros.messages import ns_of
 from acts_tools.listen.arrivals import Arrivals
+from acts_tools.running.near_names import near_topic
 
 _OF_EVERY_FRAME = (TactileSamples, Contact)
 
@@ -37,6 +38,8 @@ class Listener:
     ----------
     arrivals : dict of str to Arrivals
         Statistics of the topics that have appeared, by topic.
+    hints : dict of str to str
+        Of each topic that has no publisher yet, what may have been meant (`near_topic`).
     complaints : dict of str to str
         Message of every component whose last report on a diagnostics topic is a warning or an error, by its name.
     complained_s : dict of str to float
@@ -45,6 +48,7 @@ class Listener:
 
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
         self.arrivals: dict[str, Arrivals] = {}
+        self.hints: dict[str, str] = {}
         self.complaints: dict[str, str] = {}
         self.complained_s: dict[str, float] = {}
         self._node = node
@@ -57,7 +61,10 @@ class Listener:
         for topic in self._topics:
             offers = self._node.get_publishers_info_by_topic(topic)
             if topic not in types or not offers:
+                if topic not in self._subscriptions:
+                    self.hints[topic] = near_topic(self._node, topic)
                 continue
+            self.hints.pop(topic, None)
             present = self._subscriptions.get(topic)
             if present is not None:
                 if not is_too_strict(present.qos_profile, offers):

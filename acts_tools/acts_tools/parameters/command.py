@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
+from acts_tools.running.near_names import did_you_mean
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
@@ -93,7 +94,10 @@ def run(arguments: argparse.Namespace) -> int:
 def _require(node: str, wanted: Sequence[str], names: Sequence[str]) -> None:
     unknown = [name for name in wanted if name not in names]
     if unknown:
-        raise SettingsError(f"{node} has no parameter {', '.join(unknown)}; `acts param {node}` lists those it has")
+        hint = did_you_mean(unknown[0], names) if len(unknown) == 1 else ""
+        raise SettingsError(
+            f"{node} has no parameter {', '.join(unknown)}; `acts param {node}` lists those it has{hint}"
+        )
     if len(set(wanted)) < len(wanted):
         raise SettingsError("a parameter is given twice; give it once")
 

@@ -9,6 +9,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import ActsError
+from acts_tools.running.near_names import did_you_mean
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -58,7 +59,9 @@ def call(
     """
     client: Client[Any, Any] = node.create_client(kind, name)
     if not client.wait_for_service(timeout_sec=found_s):
-        raise error(f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID?")
+        names = (one for one, _ in node.get_service_names_and_types())
+        hint = did_you_mean(name, names)
+        raise error(f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID{hint or '?'}")
     future = client.call_async(request)
     deadline_s = time.monotonic() + answer_s
     while not future.done():

@@ -90,12 +90,15 @@ def _list(node: Node, executor: Executor) -> int:
 def _require_trigger(node: Node, executor: Executor, name: str) -> None:
     """Wait for a service, and refuse one that takes more than a call."""
     from acts_ros.executor import spin_for
+    from acts_tools.running.near_names import did_you_mean
 
     deadline_s = time.monotonic() + FOUND_S
     while (types := dict(node.get_service_names_and_types()).get(name)) is None:
         if time.monotonic() > deadline_s:
+            triggers = (one for one, types in node.get_service_names_and_types() if _TRIGGER in types)
             raise SettingsError(
                 f"no node offers {name}: is it launched, with this ROS_DOMAIN_ID? `acts call` lists those there are"
+                + did_you_mean(name, triggers)
             )
         spin_for(executor, _LOOK_S)
     if _TRIGGER not in types:
