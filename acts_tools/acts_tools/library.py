@@ -27,6 +27,16 @@ from acts_tools.output_file import require_writable
 from acts_tools.training.frames import digest_of
 
 
+_EPILOG = """\
+examples:
+  acts library -o objects.npz                           of 30 simulated objects
+  acts library --objects circle spoon -o objects.npz    of two of them
+  acts library --files cup.npz pen_1.npz pen_2.npz -o objects.npz
+
+docs/reconstruction.md says how to use it.
+"""
+
+
 def add_parser(subparsers: Any) -> None:
     """Add ``acts library`` to the acts command."""
     parser = subparsers.add_parser(
@@ -35,6 +45,8 @@ def add_parser(subparsers: Any) -> None:
         description="Write the file by which the node reconstruction classifies objects (its parameter "
         "object_library). It uses the strongest frame of every recording with a touch; without --frames and "
         "--files it presses simulated objects.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="library file to write")
     source = parser.add_mutually_exclusive_group()

@@ -14,6 +14,16 @@ from acts_ros.bags import require_rosbags
 from acts_tools.arguments import real
 
 
+_EPILOG = """\
+examples:
+  acts play touch                                       all of it, once
+  acts play touch --rate 0.5 --loop                     half as fast, again and again
+  acts play touch -t /plate/contact --start-offset 20   one topic, from 20 s after the beginning on
+
+docs/bags.md says which bags are read.
+"""
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``play`` to the acts command."""
     parser = subparsers.add_parser(
@@ -21,6 +31,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="publish a bag's messages again",
         description="Publish a bag's messages at the pace and with the quality of service of their recording. "
         "Reads bags of `acts record` and of ROS 2, also those whose recorder was killed.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
     parser.add_argument("-r", "--rate", type=real(1e-3), default=1.0, help="speed, 2 is twice as fast (default: 1)")

@@ -27,6 +27,17 @@ if TYPE_CHECKING:
 _TURN_S = 0.25
 
 
+_EPILOG = """\
+examples:
+  acts record /plate/samples /plate/contact             a folder named after the time; Ctrl-C ends it
+  acts record -o touch -d 10 /plate/samples             ten seconds, in the folder touch
+  acts record -a -o all                                 every topic that is not hidden
+
+`acts play touch` publishes the messages again, `acts view --bag touch` shows them, `acts export` makes tables of them.
+docs/bags.md explains the rest.
+"""
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``record`` to the acts command."""
     parser = subparsers.add_parser(
@@ -34,6 +45,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="record topics to a bag",
         description="Record topics to an MCAP bag that `acts play`, `ros2 bag`, Foxglove and rosbags read. "
         "Topics may appear later. Ctrl-C ends it; if it is killed, only the last quarter of a second is lost.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
     parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")

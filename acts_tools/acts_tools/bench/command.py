@@ -25,7 +25,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="measure throughput, CPU and latency",
         description="Measure the performance of the sensing on this machine; all hardware is simulated. The report is "
         "written after each measurement, so Ctrl-C keeps those that are finished.",
-        epilog="measurements:\n"
+        epilog="examples:\n"
+        "  acts bench                        the short measurements, one after the other\n"
+        "  acts bench latency --seconds 10   one of them, shorter\n"
+        "  acts bench skins --skins 2\n"
+        "\nmeasurements:\n"
         + "".join(
             f"  {name:<14} {entry.summary}, {entry.seconds:g} s{' (only by name)' if entry.only_by_name else ''}\n"
             for name, entry in MEASUREMENTS.items()

@@ -11,9 +11,24 @@ from pathlib import Path
 from acts_tools.arguments import random_seed, real, whole
 
 
+_EPILOG = """\
+examples:
+  acts demo ball_balancing                              all of it, some 30 s
+  acts demo ball_balancing --seconds 10                 as much as fits into this time
+  acts demo hand                                        the four acts of the hand, about a minute
+  acts demo hand slip sharp                             two of them
+"""
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``demo`` to the acts command."""
-    parser = subparsers.add_parser("demo", help="run a demonstration in simulation")
+    parser = subparsers.add_parser(
+        "demo",
+        help="run a demonstration in simulation",
+        description="Run a demonstration with everything simulated. The results are in the folder out.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     demos = parser.add_subparsers(dest="demo", required=True, metavar="NAME")
     ball = demos.add_parser(
         "ball_balancing",

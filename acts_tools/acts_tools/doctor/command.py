@@ -16,6 +16,10 @@ from acts_tools.doctor.report import examine
 from acts_tools.output_file import write_json
 
 _EPILOG = """\
+examples:
+  acts doctor                  before the first start
+  acts doctor --realtime       before realtime_priority:=40
+
 levels:
   ok      good
   ?       unknown, for example in a container

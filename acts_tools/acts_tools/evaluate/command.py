@@ -20,6 +20,16 @@ from acts_tools.evaluate.spectra import spectra_command
 from acts_tools.evaluate.wearables import wearables_command
 
 
+_EPILOG = """\
+examples:
+  acts evaluate recovery --presses 30 --scheme adaptive tracking --m 55 128
+  acts evaluate slip --frames FILE.npz --pitch-m 0.0034
+  acts evaluate impacts --seeds 1 --m 64 --recordings scenes
+
+`acts evaluate WHAT --help` explains one of them.
+"""
+
+
 def add_parser(subparsers: Any) -> None:
     """Add ``acts evaluate`` to the acts command."""
     parser = subparsers.add_parser(
@@ -28,6 +38,8 @@ def add_parser(subparsers: Any) -> None:
         description="Sample recorded or simulated touch like the board, and score images, objects, slip, impacts, "
         "outlines, spectra, gait or reflexes. docs/recovery.md explains the numbers of images and objects; the others "
         "have pages of their own.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="what to evaluate", metavar="WHAT", required=True)
     for module in (

@@ -27,6 +27,15 @@ _RATE_MAX_HZ = 10_000.0
 _NOTES_FILE = "notes.txt"
 
 
+_EPILOG = """\
+examples:
+  acts export touch --to csv                            the folder touch_csv with frames.csv and contacts.csv
+  acts export touch --to npz --rate 100 -o frames.npz   100 rows a second, as `acts view --npz` reads them
+  acts export touch --to csv --skin left_arm            one of the skins in the bag
+  acts export grasp_1 grasp_2 --to lerobot -o grasps    two episodes
+"""
+
+
 def add_parser(subparsers: Any) -> None:
     """Add ``acts export`` to the acts command."""
     parser = subparsers.add_parser(
@@ -34,6 +43,8 @@ def add_parser(subparsers: Any) -> None:
         help="write touch of a bag as csv, npz, parquet or a LeRobot dataset",
         description="Write images, contacts and joint states of bags as tables with one row per time. Images and "
         "contacts that were not recorded are recovered from the samples. docs/export.md lists the columns.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "bags", nargs="+", type=Path, metavar="BAG", help="bag; with several, each is a LeRobot episode"
@@ -44,11 +55,12 @@ def add_parser(subparsers: Any) -> None:
         "--output",
         type=Path,
         metavar="PATH",
-        help="folder to make, or with --to npz a file that ends in .npz (name of the first bag and format)",
+        help="folder to make, or with --to npz a file that ends in .npz "
+        "(such as touch_csv, touch.npz for the bag touch)",
     )
     parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
     parser.add_argument(
-        "--joints", default="", metavar="TOPIC", help="joint states to export, if there are several; none: none"
+        "--joints", default="", metavar="TOPIC", help="joint states to export, if there are several; none: leave them out"
     )
     parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view ({_LAYOUT})")
     parser.add_argument(

@@ -31,6 +31,13 @@ _WITHOUT = f"The paper's curves are not drawn: give their folder as --paper-data
 _MISSING = "The paper's curves are not drawn: they are not all in the given folder."
 
 
+_EPILOG = """\
+examples:
+  acts figures 4E --fast                                one figure, in rough numbers
+  acts figures                                          all of them, in the folder figures
+"""
+
+
 def add_parser(subparsers: Any) -> None:
     """Add ``acts figures`` to the acts command."""
     parser = subparsers.add_parser(
@@ -39,6 +46,8 @@ def add_parser(subparsers: Any) -> None:
         description="Draw figures of the paper, each with the paper's curves where it has some, the paper's method on "
         "our simulated skin, and our method. Beside each picture are its numbers, as JSON and CSV. A figure that was "
         "measured with the same code, seed and size is not measured again. docs/paper.md discusses every figure.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
     parser.add_argument("--out", type=Path, default=Path("figures"), metavar="DIR", help="default: %(default)s")

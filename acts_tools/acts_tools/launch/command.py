@@ -23,6 +23,18 @@ _OURS = "acts_bringup"
 _TIMEOUTS = ("sigterm_timeout", "sigkill_timeout")
 
 
+_EPILOG = """\
+examples:
+  acts launch acts_bringup tactile.launch.xml                 a simulated skin
+  acts launch acts_bringup tactile.launch.xml sim:=false port:=auto
+  acts launch acts_bringup tactile.launch.xml --show-args     its arguments
+  acts launch my_skins.launch.xml                             a file of your own, by its path
+
+Exit code: 0 when all nodes ended in order, 1 when one died or the launch file is invalid. docs/launch.md explains the
+rest.
+"""
+
+
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``launch`` to the acts command."""
     parser = subparsers.add_parser(
@@ -30,7 +42,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="start the nodes of a launch file",
         description="Start the nodes of an XML launch file and stop them together (Ctrl-C). "
         "Where `ros2 launch` is installed, it is used.",
-        epilog="Exit code: 0 when all nodes ended in order, 1 when one died or the launch file is invalid.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("package", help="package of the launch file, or path of a launch file")
     parser.add_argument("words", nargs="*", metavar="file | name:=value", help="launch file, then its arguments")

@@ -33,6 +33,17 @@ _OF_KSVD = ("atoms", "sparsity", "iterations")
 """Settings that are options; the others stay as they are."""
 
 
+_EPILOG = """\
+examples:
+  acts train -o mine.npz                                from the contact model, as the shipped dictionary
+  acts train --frames FILE.npz -o mine.npz              from full frames of your own
+  acts train --frames touch --topic /plate/samples -o mine.npz
+
+`acts launch acts_bringup tactile.launch.xml method:=per_frame dictionary:=mine.npz` uses it. docs/reconstruction.md
+explains the settings.
+"""
+
+
 def add_parser(subparsers: Any) -> None:
     """Add ``acts train`` to the acts command."""
     parser = subparsers.add_parser(
@@ -41,6 +52,8 @@ def add_parser(subparsers: Any) -> None:
         description="Learn a dictionary by K-SVD and write it to a file that the node reconstruction reads (its "
         "parameter dictionary). Frames come from the contact model, or from recordings. After an interruption, the "
         "same command continues from the last finished iteration, which is saved in FILE.partial.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="dictionary file to write")
     parser.add_argument(

@@ -19,7 +19,7 @@ from fake_prefix import Prefix
 from acts_core.stop_signals import STOP_SIGNALS
 from acts_tools import INTERRUPTED, __version__
 from acts_tools.__main__ import run
-from acts_tools.cli import COMMANDS, main
+from acts_tools.cli import COMMANDS, _build_parser, main
 from acts_tools.launch import command
 
 PACKAGE = Path(__file__).parents[2]
@@ -33,6 +33,22 @@ def test_help_names_every_command_and_imports_none_of_them(capsys: pytest.Captur
     for name, (_, summary) in COMMANDS.items():
         # A long name has a line of its own.
         assert re.search(rf"^    {name}\s+{re.escape(summary)}$", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_each_command_has_examples_that_it_takes(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    parser, _ = _build_parser(name)
+    with pytest.raises(SystemExit):
+        parser.parse_args([name, "--help"])
+    after = capsys.readouterr().out.partition("\nexamples:\n")[2].split("\n\n")[0]
+    examples = re.findall(r"^  acts (.+?)(?:  .*)?$", after, re.MULTILINE)
+    assert examples
+    for example in examples:
+        words = example.partition(" | ")[0].split()
+        assert words[0] == name
+        if name == "launch":  # as `main` does
+            words.sort(key=lambda word: word.startswith("-"))
+        parser.parse_args(words)
 
 
 def test_without_a_command_it_shows_its_help(capsys: pytest.CaptureFixture[str]) -> None:
