@@ -30,7 +30,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kOther =
-    "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only";
+    "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only "
+    "(to a program without a launch file: another path)";
 constexpr mode_t kOwnerOnly = 0700;
 constexpr std::size_t kLongestCommand = 100;
 constexpr std::size_t kLongestLock = 24;  // a process id and a newline

@@ -26,7 +26,10 @@ _WAIT_S = 1.0
 _LONGEST_LOCK = 24
 # What an opening says of a path that will never do; a full disk may have room again.
 _LASTING = (errno.EROFS, errno.EACCES, errno.ENOENT, errno.ENOTDIR)
-_OTHER = "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only"
+_OTHER = (
+    "give another folder: run_dir:=/dev/shm/NAME, or run_dir:=/tmp/NAME where that is full or read-only "
+    "(to a program without a launch file: another path)"
+)
 
 
 def default_run_dir() -> Path:
