@@ -148,7 +148,7 @@ def _checked(patches: NDArray[np.floating], config: KsvdConfig) -> NDArray[np.fl
     if X.shape[0] < config.atoms:
         raise ArrayError(
             f"{X.shape[0]} patches for {config.atoms} atoms: give more frames, or learn fewer atoms "
-            f"(patches with few pressed pixels and repeated ones are left out)"
+            f"(patches with few pressed taxels and repeated ones are left out)"
         )
     if not np.isfinite(X).all():
         raise ArrayError("the patches hold NaN or infinity")

@@ -26,7 +26,7 @@ def random_patches(
     min_active: int = 16,
     rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """Cut patches at random places out of frames, and drop those with few pressed pixels.
+    """Cut patches at random places out of frames, and drop those with few pressed taxels.
 
     Parameters
     ----------
