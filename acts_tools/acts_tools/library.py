@@ -26,7 +26,6 @@ from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_writable
 from acts_tools.training.frames import digest_of
 
-
 _EPILOG = """\
 examples:
   acts library -o objects.npz                           of 30 simulated objects

@@ -245,7 +245,8 @@ def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_pat
         said = refusal(first.link, 2)
         assert f"{first.link} is in use by process {first.process.pid} (" in said
         assert "virtual_board --link" in said
-        assert "run_dir:=" in said and "without a launch file: another path" in said
+        assert "run_dir:=" in said
+        assert "without a launch file: another path" in said
         assert str(first.link.readlink()) == first.start["port"]
         first.open_port()
         first.read_frames(3)

@@ -87,7 +87,8 @@ def test_a_path_that_names_no_file_is_refused(path: Path) -> None:
 def test_what_is_claimed_is_refused_to_others_by_the_holders_name_until_it_is_given_up(tmp_path: Path) -> None:
     ring = tmp_path / "field.ring"
     claim = FileClaim(ring)
-    with pytest.raises(SettingsError, match=rf"{ring} is in use by process {os.getpid()} \(.*\); end that program.*another path"):
+    told = rf"{ring} is in use by process {os.getpid()} \(.*\); end that program.*another path"
+    with pytest.raises(SettingsError, match=told):
         FileClaim(ring)
     FileClaim(tmp_path / "joints.ring").close()
     claim.close()

@@ -13,7 +13,6 @@ from acts_core.words import counted
 from acts_ros.bags import require_rosbags
 from acts_tools.arguments import real
 
-
 _EPILOG = """\
 examples:
   acts play touch                                       all of it, once

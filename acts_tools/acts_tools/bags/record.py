@@ -121,9 +121,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     return 0 if recorder.is_complete else 1
 
 
-def _summarise(
-    recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], started_s: float, ended_s: float
-) -> None:
+def _summarise(recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], started_s: float, ended_s: float) -> None:
     records = sorted(recorder.records.values(), key=lambda record: record.topic)
     width = max((len(record.topic) for record in records), default=0)
     for record in records:

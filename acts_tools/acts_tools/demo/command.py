@@ -10,7 +10,6 @@ from pathlib import Path
 
 from acts_tools.arguments import random_seed, real, whole
 
-
 _EPILOG = """\
 examples:
   acts demo ball_balancing                              all of it, some 30 s

@@ -100,7 +100,8 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
     for word in words:
         name, is_given, text = word.partition("=")
         if not is_given or name not in BOARD_PARAMETERS:
-            raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}{did_you_mean(name, BOARD_PARAMETERS)}")
+            hint = did_you_mean(name, BOARD_PARAMETERS)
+            raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}{hint}")
         if name in values:
             raise SettingsError(f"{word}: {name} is given twice; give it once")
         text = _ABSOLUTE[name](text) if name in _ABSOLUTE else text

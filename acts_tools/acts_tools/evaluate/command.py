@@ -19,7 +19,6 @@ from acts_tools.evaluate.slip import slip_command, slip_sampled_command
 from acts_tools.evaluate.spectra import spectra_command
 from acts_tools.evaluate.wearables import wearables_command
 
-
 _EPILOG = """\
 examples:
   acts evaluate recovery --presses 30 --scheme adaptive tracking --m 55 128

@@ -60,7 +60,10 @@ def add_parser(subparsers: Any) -> None:
     )
     parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
     parser.add_argument(
-        "--joints", default="", metavar="TOPIC", help="joint states to export, if there are several; none: leave them out"
+        "--joints",
+        default="",
+        metavar="TOPIC",
+        help="joint states to export, if there are several; none: leave them out",
     )
     parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view ({_LAYOUT})")
     parser.add_argument(

@@ -61,7 +61,9 @@ def call(
     if not client.wait_for_service(timeout_sec=found_s):
         names = (one for one, _ in node.get_service_names_and_types())
         hint = did_you_mean(name, names)
-        raise error(f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID{hint or '?'}")
+        raise error(
+            f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID{hint or '?'}"
+        )
     future = client.call_async(request)
     deadline_s = time.monotonic() + answer_s
     while not future.done():

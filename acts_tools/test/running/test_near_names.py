@@ -68,9 +68,7 @@ def plate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
         ("param /plate/gains stifness", "lists those it has; did you mean stiffness?"),
     ],
 )
-def test_commands_say_it(
-    words: str, told: str, plate: Node, capfd: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_commands_say_it(words: str, told: str, plate: Node, capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     def says_it() -> bool:
         """Once the command has found the node: how long that takes is the middleware's matter."""
         shutil.rmtree(tmp_path / "bag", ignore_errors=True)
