@@ -5,8 +5,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+
+from acts_tools.launch.evaluate import Plan
 
 
 @dataclass(frozen=True)
@@ -39,3 +42,12 @@ class Prefix:
         path.write_text(text)
         path.chmod(mode)
         return path
+
+
+Launch = Callable[..., Plan]
+"""Evaluates the body of a launch file."""
+
+
+def words(plan: Plan) -> list[list[str]]:
+    """Arguments of every process, without the program."""
+    return [list(process.command[1:]) for process in plan.processes]

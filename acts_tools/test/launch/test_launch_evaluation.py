@@ -5,42 +5,18 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import yaml
-from fake_prefix import Prefix
+from fake_prefix import Launch, Prefix, words
 
 from acts_core.errors import LaunchError
-from acts_tools.launch.evaluate import Plan, evaluate
-from acts_tools.launch.show import show_arguments
+from acts_tools.launch.evaluate import evaluate
 
-Launch = Callable[..., Plan]
 PARAM = '<node pkg="fake" exec="node"><param name="a" value="{}"/></node>'
 FAR_TOO_LONG = (5000 * "9", f"0x{5000 * 'f'}", 3000 * "[")
 NODE = '<node pkg="fake" exec="node" args="{}"/>'
-
-
-@pytest.fixture
-def node(prefix: Prefix) -> Path:
-    return prefix.script("node", "#!/bin/sh\n")
-
-
-@pytest.fixture
-def launch(prefix: Prefix, node: Path, tmp_path: Path) -> Launch:
-    def run(body: str, **arguments: str) -> Plan:
-        folder = tmp_path / "params"
-        folder.mkdir(exist_ok=True)
-        return evaluate(prefix.launch("it.launch.xml", body), arguments, os.environ, folder)
-
-    return run
-
-
-def words(plan: Plan) -> list[list[str]]:
-    """Arguments of every process, without the program."""
-    return [list(process.command[1:]) for process in plan.processes]
 
 
 def test_a_node_gets_name_namespace_parameters_and_remaps_in_the_real_order(
@@ -339,17 +315,6 @@ def test_the_line_is_that_of_the_innermost_place(launch: Launch) -> None:
         launch('<group>\n<node pkg="fake" exec="node">\n<param name="a" value="$(var zz)"/>\n</node>\n</group>')
 
 
-def test_a_missing_required_argument_is_named_with_its_description(launch: Launch, prefix: Prefix) -> None:
-    body = '<arg name="need" description="what it is for"/>'
-    message = r"missing required argument 'need' \(description: 'what it is for'\), given: \[{}\]"
-    with pytest.raises(LaunchError, match=message.format("")):
-        launch(body)
-    prefix.launch("needs.launch.xml", body)
-    with pytest.raises(LaunchError, match=r"it\.launch\.xml:2: Included .*" + message.format("other")):
-        launch('<include file="$(dirname)/needs.launch.xml"><arg name="other" value="1"/></include>')
-    assert launch(body + NODE.format("$(var need)"), need="5").processes[0].command[1] == "5"
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -367,49 +332,3 @@ def test_files_that_are_no_launch_files_are_refused(tmp_path: Path, text: str, m
     path.write_text(text)
     with pytest.raises(LaunchError, match=message):
         evaluate(path, {}, {}, tmp_path)
-
-
-def test_arguments_are_listed_with_description_and_default_as_the_real_launch_does(prefix: Prefix) -> None:
-    prefix.launch("inner.launch.xml", '<arg name="m" default="55" description="taxels"/><arg name="sim" default="0"/>')
-    path = prefix.launch(
-        "outer.launch.xml",
-        """<arg name="sim" default="true" description="simulated or not"/>
-        <arg name="need"/>
-        <arg name="file" default="$(find-pkg-share fake)/$(var sim).yaml"/>
-        <group if="$(var sim)"><include file="$(dirname)/inner.launch.xml"/></group>
-        <include file="$(var file)"/>""",
-    )
-    assert show_arguments(path, os.environ) == (
-        "Arguments (pass arguments as '<name>:=<value>'):\n\n"
-        "    'sim':\n        simulated or not\n        (default: 'true')\n\n"
-        "    'need':\n        no description given\n\n"
-        "    'file':\n        no description given\n"
-        "        (default: FindPackageShare(pkg='fake') + '/' + LaunchConfig('sim') + '.yaml')\n\n"
-        "    'm':*\n        taxels\n        (default: '55')\n\n"
-        "* argument(s) which are only used if specific conditions occur"
-    )
-
-
-CHOICE = '<arg name="colour" default="red" description="Of it"><choice value="red"/><choice value="blue"/></arg>'
-
-
-def test_an_argument_with_choices_takes_no_other(launch: Launch, prefix: Prefix) -> None:
-    body = CHOICE + NODE.format("$(var colour)")
-    assert words(launch(body))[0][0] == "red"
-    assert words(launch(body, colour="blue"))[0][0] == "blue"
-    wrong = r"Argument \"colour\" provided value \"bleu\" is not valid\. Valid options are: \['red', 'blue'\]"
-    with pytest.raises(LaunchError, match=wrong):
-        launch(body, colour="bleu")
-    # Also where the default is none of them, and where a file that includes this one gives it.
-    with pytest.raises(LaunchError, match="not valid"):
-        launch(body.replace('default="red"', 'default="green"'))
-    prefix.launch("inner.launch.xml", CHOICE)
-    with pytest.raises(LaunchError, match="not valid"):
-        launch('<include file="$(dirname)/inner.launch.xml"><arg name="colour" value="bleu"/></include>')
-
-
-def test_choices_are_listed_as_the_real_launch_does(prefix: Prefix) -> None:
-    bare = '<arg name="size"><choice value="1"/></arg>'
-    shown = show_arguments(prefix.launch("it.launch.xml", CHOICE + bare), os.environ)
-    assert "Of it. Valid choices are: ['red', 'blue']" in shown
-    assert "One of: ['1']" in shown

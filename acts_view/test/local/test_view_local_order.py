@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from test_view_codec import decode
-from test_view_local import DEADLINE_S, Counted, Shown
+from view_recorded import DEADLINE_S, Counted, Shown
 from waiting import wait_for
 
 from acts_core.frames import SampleFrame

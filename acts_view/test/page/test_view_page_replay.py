@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from test_view_local import Shown, write_bag, write_frames
 from view_browser import expect, needs_browser
 from view_player import Player, pressed, saved, saved_table
+from view_recorded import Shown, write_bag, write_frames
 from waiting import wait_for
 
 from acts_core.errors import ViewRequestError

@@ -1,0 +1,48 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Large touches on the skins of a body: steps, and heel and toes as one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from acts_recon.impacts import Impact, Kind
+from acts_recon.settings import ReconstructionSettings
+
+
+def told_of_images(name: str, pressed: dict[tuple[int, int, int, int], tuple[int, int]], **own: float) -> list[Impact]:
+    """What is told of rectangles of a layout's picture: first row, row behind the last, columns; when pressed [ms]."""
+    settings = ReconstructionSettings(layout=name, method="per_frame", touch_counts=25, **own)
+    arranged = settings.arranged()
+    detector = settings.impact_detector(settings.recovery())
+    told: list[Impact] = []
+    for number in range(300):
+        image = np.zeros((arranged.rows, arranged.cols), dtype=np.float32)
+        for (top, bottom, left, right), (first, end) in pressed.items():
+            if first <= number < end:
+                image[top:bottom, left:right] = 300
+        told += detector.step(100.0 + number * 1e-3, 1e-3, image)
+    return told
+
+
+@pytest.mark.parametrize(
+    ("name", "own", "kind"),
+    [
+        ("square", {}, Kind.STEP),
+        ("insole", {}, Kind.STEP),
+        ("arm", {}, Kind.TAP),
+        ("arm", {"impact_step_m2": 0.001}, Kind.STEP),
+        ("insole", {"impact_step_m2": 0.5}, Kind.TAP),
+    ],
+)
+def test_a_large_touch_is_a_step_unless_nobody_steps_on_the_skin(name: str, own: dict[str, float], kind: Kind) -> None:
+    told = told_of_images(name, {(4, 22, 2, 14): (50, 200)}, **own)
+    assert [one.kind for one in told if one.is_over] == [kind]
+
+
+def test_heel_and_toes_are_one_touch_on_an_insole_alone() -> None:
+    heel_and_toes = {(2, 10, 3, 12): (50, 200), (22, 30, 3, 12): (60, 190)}
+    assert [one.is_over for one in told_of_images("insole", heel_and_toes)] == [False, True]
+    assert [one.is_over for one in told_of_images("arm", heel_and_toes)] == [False, False, True, True]
