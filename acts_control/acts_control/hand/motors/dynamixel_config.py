@@ -43,9 +43,14 @@ class DynamixelConfig(BusConfig):
         False, "whether to set the return delay in the EEPROM of the motors to 0 where it is not"
     )
 
+    @property
+    def lost_answer_s(self) -> float:
+        """How long a reply is waited for that does not come [s]."""
+        return 2e-3 * self.answer_timeout_ms + _SDK_WAITS_S
+
     def check_rate(self, rate_hz: float) -> None:
         """See `BusConfig.check_rate`."""
-        period_s, lost_s = 1.0 / rate_hz, 2e-3 * self.answer_timeout_ms + _SDK_WAITS_S
+        period_s, lost_s = 1.0 / rate_hz, self.lost_answer_s
         # One cycle may be late, or wait for a reply that is lost.
         least_s = period_s + max(period_s, lost_s)
         if 0.0 < self.motor_watchdog_s < least_s:

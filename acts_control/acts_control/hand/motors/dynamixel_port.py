@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import os
 import termios
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
@@ -54,6 +55,8 @@ class DynamixelPort:
         self._packets: Any = None
         self._group: Any = None
         self._chosen: tuple[int, ...] = ()
+        # Motors that have left a request without an answer: it may still come.
+        self._late: set[int] = set()
 
     # --- the port itself
 
@@ -73,6 +76,7 @@ class DynamixelPort:
                 f"dynamixel_sdk cannot be imported ({error}); install it with: pip install dynamixel-sdk"
             ) from error
         config = self._config
+        self._late.clear()
         self._sdk = dynamixel_sdk
         if is_stale_link(config.port):
             raise HandError(
@@ -156,6 +160,7 @@ class DynamixelPort:
 
     def _ask(self, joint: Joint, call: Callable[[], tuple[int, int, int]]) -> int:
         """The value that a motor answers with; it is asked again where no answer comes."""
+        self._let_late_answers_come(joint)  # to what it was asked before
         for _ in range(_TRIES):
             with self._using_port():
                 try:
@@ -164,11 +169,23 @@ class DynamixelPort:
                     value, result, error = 0, self._sdk.COMM_RX_CORRUPT, 0
             if result == self._sdk.COMM_SUCCESS:
                 break
+            self._late.add(joint.motor_id)
         else:
             raise HandError(f"motor {name_of(joint)} does not answer")
+        self._let_late_answers_come(joint)
         if error & ~ALERT:
             raise HandError(f"motor {name_of(joint)} refuses: {self._packets.getRxPacketError(error & ~ALERT)}")
         return value
+
+    def _let_late_answers_come(self, joint: Joint) -> None:
+        """Wait for what a motor has not answered in time; the next request drops it.
+
+        Packets have no numbers, so a late answer would be taken for that to the next request: a read would have the
+        value of another register, and a refusal would be told of the wrong one.
+        """
+        if joint.motor_id in self._late:
+            self._late.discard(joint.motor_id)
+            time.sleep(self._config.lost_answer_s)
 
     # --- all motors
 

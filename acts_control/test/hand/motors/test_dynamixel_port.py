@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 import tty
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -19,6 +21,7 @@ from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelConfig, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
 from acts_control.hand.motors.dynamixel_table import D_GAIN, GOAL_POSITION, P_GAIN
+from acts_sim.dynamixel.packets import PacketReader, encode_status
 
 pytestmark = pytest.mark.slow
 
@@ -73,6 +76,40 @@ def test_an_answer_that_came_too_late_is_not_that_of_the_next_request(
         assert port.read(motor, D_GAIN) == 200
     finally:
         port.close()
+
+
+def test_a_request_that_was_asked_again_and_answered_twice_shifts_no_later_answer() -> None:
+    values = {P_GAIN.address: 500, D_GAIN.address: 200}
+    adapter, terminal = os.openpty()
+    tty.setraw(terminal)
+
+    def serve() -> None:
+        reader, asked = PacketReader(), 0
+        with suppress(OSError):  # until the test closes the line
+            while True:
+                for packet in reader.feed(os.read(adapter, 256)):
+                    asked += 1
+                    if asked == 1:
+                        continue
+                    # The second request is answered as the first; its own answer comes when the next one may be there.
+                    for _ in range(2 if asked == 2 else 1):
+                        value = values[int.from_bytes(packet.parameters[:2], "little")]
+                        os.write(adapter, encode_status(packet.motor_id, 0, value.to_bytes(2, "little")))
+                        time.sleep(0.1 if asked == 2 else 0.0)
+
+    thread = threading.Thread(target=serve, daemon=True)
+    thread.start()
+    port = DynamixelPort(DynamixelConfig(port=os.ttyname(terminal), answer_timeout_ms=TIMEOUT_MS))
+    port.open()
+    try:
+        motor = LEAP_RIGHT.joints[2]
+        assert port.read(motor, P_GAIN) == 500
+        assert port.read(motor, D_GAIN) == 200
+    finally:
+        port.close()
+        for end in (terminal, adapter):
+            os.close(end)
+        thread.join(DEADLINE_S)
 
 
 def test_a_port_that_takes_nothing_more_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
