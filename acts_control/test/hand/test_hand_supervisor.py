@@ -40,6 +40,12 @@ postures: {open: {}, pregrasp: {left: 0.1, right: 0.1}}
 """
 
 
+def test_its_reflexes_are_told_before_it_has_torque() -> None:
+    reflexes = make_reflexes("sharp slip", HandReflexesSettings())
+    supervisor = HandSupervisor(HandKinematics(LEAP_RIGHT), reflexes, SupervisorConfig())
+    assert supervisor.status.events == {"sharp": 0, "slip": 0}
+
+
 def test_it_stands_still_until_it_is_told_what_to_do() -> None:
     hand = a_hand()
     assert hand.step([], steps=50) is HandState.STOPPED

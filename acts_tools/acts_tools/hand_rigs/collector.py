@@ -50,6 +50,8 @@ class HandCollector(PollingNode):
         Age of touch in the newest status [s].
     fresh_s : float
         Time for which the hand has reported fresh touch [s].
+    has_torque : bool
+        Whether the hand moved its goals before the newest status: it does nothing while its motors have no torque.
     """
 
     def __init__(self, namespace: str, run_dir: Path, recording: HandRecording) -> None:
@@ -58,6 +60,8 @@ class HandCollector(PollingNode):
         self.status: StatusSample | None = None
         self.touch_age_s = float("inf")
         self.fresh_s = 0.0
+        self.has_torque = False
+        self._steps = 0
         self._stale_s = 0.0
         skin = layout(_LAYOUT, 32, 32)
         recording.patches = tuple(patch.name for patch in skin.patches)
@@ -80,6 +84,8 @@ class HandCollector(PollingNode):
         self._take_truth()
         for message, _ in self._statuses.take_all():
             self.touch_age_s = message.touch_age
+            self.has_torque = message.steps > self._steps
+            self._steps = message.steps
             self.status = StatusSample(
                 seconds_of(message.header.stamp) - self._clock_offset_s,
                 message.state,

@@ -140,7 +140,10 @@ def live_hand(
         collector = HandCollector(NAMESPACE, run_dir, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: line(collector))
         try:
-            if not watcher.until(lambda: collector.fresh_s > _SETTLED_S and collector.is_served, START_TIMEOUT_S):
+            if not watcher.until(
+                lambda: collector.fresh_s > _SETTLED_S and collector.has_torque and collector.is_served,
+                START_TIMEOUT_S,
+            ):
                 raise LaunchError(f"the hand did not feel and move within {START_TIMEOUT_S:.0f} s")
             with closing(_control(run_dir / "hand.control")) as control:
                 meter = LoadMeter(launch.pid)

@@ -17,18 +17,23 @@ from typing import cast
 
 import numpy as np
 import pytest
+from waiting import wait_for
 
 import acts_tools.hand_rigs.live_rig
 from acts_core.skin import RegionContact, layout
+from acts_msgs.msg import HandStatus
+from acts_ros.qos import STATE
 from acts_sim.hand import HandWorld, HandWorldConfig
 from acts_tools.cli import main
 from acts_tools.demo.hand.act import Act
 from acts_tools.demo.hand.picture import draw
 from acts_tools.demo.hand.score import rows, score, table
 from acts_tools.evaluate.hand.scenario import Outcome
+from acts_tools.hand_rigs.collector import HandCollector
 from acts_tools.hand_rigs.live import HandRefusalError
 from acts_tools.hand_rigs.live_rig import LiveRig, LiveSupervisor
 from acts_tools.hand_rigs.recording import HandRecording, StatusSample
+from acts_tools.running.node import ros
 
 pytestmark = pytest.mark.slow
 
@@ -175,6 +180,22 @@ def test_an_act_is_played_by_real_processes_and_leaves_figures_and_a_picture(tmp
     assert results["latency_ms"]["median"] > 0
     assert results["cycle_ms"]["median"] > 0
     assert (tmp_path / "hand.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_hand_has_torque_from_when_it_moves_its_goals(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "232")
+    with ros():
+        collector = HandCollector("/of_this_test", tmp_path, HandRecording())
+        publisher = collector.create_publisher(HandStatus, "hand/status", STATE)
+        statuses, told = collector.recording.statuses, list[bool]()
+        try:
+            for steps in (0, 5, 5, 9):
+                publisher.publish(HandStatus(steps=steps))
+                wait_for(lambda: len(statuses) > len(told), "a status", 30.0, collector.take_in)
+                told.append(collector.has_torque)
+        finally:
+            collector.destroy_node()
+    assert told == [False, True, False, True]
 
 
 class RigOfLateTouch:

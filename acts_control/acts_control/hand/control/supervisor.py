@@ -103,11 +103,11 @@ class HandSupervisor:
         if config.grasp_posture not in kinematics.hand.postures:
             known = ", ".join(kinematics.hand.postures)
             raise SettingsError(f"grasp_posture = {config.grasp_posture!r}: the hand has {known}")
-        self.status = SupervisorStatus()
         self._kinematics = kinematics
         self._hand = kinematics.hand
         self._reflexes = dict(sorted(reflexes.items(), key=lambda item: -item[1].priority))
         self._config = config
+        self.status = SupervisorStatus(events=self._events())
         self._rule = StepRule(self._hand, config)
         self._state, self._reason = self.status.state, self.status.reason
         self._resumed = self._state
@@ -249,13 +249,16 @@ class HandSupervisor:
             touch_age_s=age_s,
             is_stale=is_stale,
             active=tuple(active),
-            events={name: reflex.events for name, reflex in self._reflexes.items()},
+            events=self._events(),
             steps=self.status.steps + 1,
             refused=self._refused,
             refusal=self._touch.refusal,
             unfelt=self._touch.unfelt,
         )
         return goal
+
+    def _events(self) -> dict[str, int]:
+        return {name: reflex.events for name, reflex in self._reflexes.items()}
 
     def _ask(self, sensed: Sensed, is_stale: bool) -> tuple[list[Wish], list[str]]:
         """What is to be done now, that of the highest priority first, and the reflexes that ask for it."""
