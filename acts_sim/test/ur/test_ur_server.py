@@ -184,6 +184,14 @@ def test_a_flood_of_commands_does_not_stop_the_clock(simulator: Simulator) -> No
                     sent += count
                     rest = rest[count:] or flood
         assert sent > len(flood)
+
+    def are_free() -> bool:
+        with connect(RTDE_PORT) as connection:
+            connection.sendall(encode(PacketType.SETUP_INPUTS, names))
+            return b"IN_USE" not in connection.recv(1000)
+
+    # What was sent before the end of that connection is read first, and until then its registers are taken.
+    wait_for(are_free, "the registers to be given back")
     alive(simulator)
 
 
