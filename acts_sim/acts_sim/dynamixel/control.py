@@ -13,8 +13,18 @@ from pathlib import Path
 from acts_core.errors import RobotError
 from acts_sim.shared import LineSession
 
-_READ_BYTES = 4096
+# At once, of a burst of lines: the simulation stands still while they are answered, a fifth of a millisecond each.
+_READ_BYTES = 64
 _MAX_CLIENTS = 16
+
+
+class _Client:
+    """A client: its socket, its session, and what it has not taken of its replies yet."""
+
+    def __init__(self, connected: socket.socket, session: LineSession) -> None:
+        self.socket = connected
+        self.session = session
+        self.pending = b""
 
 
 class ControlSocket:
@@ -36,7 +46,7 @@ class ControlSocket:
     def __init__(self, path: Path, answer: Callable[[str], str]) -> None:
         self._path = path
         self._answer = answer
-        self._clients: dict[int, tuple[socket.socket, LineSession]] = {}
+        self._clients: dict[int, _Client] = {}
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -55,8 +65,8 @@ class ControlSocket:
         self._listener.setblocking(False)
 
     def descriptors(self) -> list[int]:
-        """File descriptors to wait for."""
-        return [self._listener.fileno(), *self._clients]
+        """File descriptors to wait for; a client that has not taken all of its replies is not asked for more lines."""
+        return [self._listener.fileno(), *(number for number, client in self._clients.items() if not client.pending)]
 
     def serve(self, descriptor: int) -> None:
         """Read from a descriptor that has input."""
@@ -65,10 +75,15 @@ class ControlSocket:
         elif descriptor in self._clients:
             self._read(descriptor)
 
+    def send_rest(self) -> None:
+        """Send on what clients have not taken of their replies; to be called again and again."""
+        for descriptor in [number for number, client in self._clients.items() if client.pending]:
+            self._send(descriptor)
+
     def close(self) -> None:
         """Close all descriptors and remove the socket's file."""
-        for client, _ in self._clients.values():
-            client.close()
+        for client in self._clients.values():
+            client.socket.close()
         self._clients.clear()
         self._listener.close()
         with suppress(FileNotFoundError):
@@ -76,23 +91,38 @@ class ControlSocket:
 
     def _accept(self) -> None:
         with suppress(BlockingIOError):
-            client, _ = self._listener.accept()
+            connected, _ = self._listener.accept()
             if len(self._clients) >= _MAX_CLIENTS:
-                client.close()
+                connected.close()
                 return
-            client.setblocking(False)
-            self._clients[client.fileno()] = (client, LineSession(self._answer))
+            connected.setblocking(False)
+            self._clients[connected.fileno()] = _Client(connected, LineSession(self._answer))
 
     def _read(self, descriptor: int) -> None:
-        client, session = self._clients[descriptor]
+        client = self._clients[descriptor]
         try:
-            data = client.recv(_READ_BYTES)
-            client.sendall(session.receive(data))
+            data = client.socket.recv(_READ_BYTES)
         except OSError:
-            data = b""  # disconnected, or it does not read its replies
+            data = b""
         if not data:
-            client.close()
-            del self._clients[descriptor]
+            self._drop(descriptor)
+            return
+        client.pending = client.session.receive(data)
+        self._send(descriptor)
+
+    def _send(self, descriptor: int) -> None:
+        client = self._clients[descriptor]
+        try:
+            sent = client.socket.send(client.pending)
+        except BlockingIOError:
+            return
+        except OSError:
+            self._drop(descriptor)
+            return
+        client.pending = client.pending[sent:]
+
+    def _drop(self, descriptor: int) -> None:
+        self._clients.pop(descriptor).socket.close()
 
 
 def _require_stale(path: Path) -> None:

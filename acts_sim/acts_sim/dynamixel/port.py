@@ -137,7 +137,10 @@ class BusPort:
             self._send_due()
             next_s = min(due_s, self._answers[0][0]) if self._answers else due_s
             # Checked after every step, so that a reply need not wait until missed steps are made up.
-            waiting = control.descriptors() if control is not None else []
+            waiting = []
+            if control is not None:
+                control.send_rest()
+                waiting = control.descriptors()
             if self._master >= 0:
                 waiting.append(self._master)
             readable, _, _ = select.select(waiting, [], [], max(0.0, next_s - time.monotonic()))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -14,12 +15,14 @@ import sys
 import termios
 import time
 from collections.abc import Iterator
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
 from dynamixel_sdk import COMM_SUCCESS, GroupBulkRead, GroupSyncRead, GroupSyncWrite
 from motor_bus import IDS, MotorBus
 from serial import SerialException
+from waiting import wait_for
 
 from acts_core.errors import REFUSED_EXIT_CODE, RobotError
 from acts_sim.dynamixel import Bus, BusPort, ControlSocket
@@ -166,6 +169,45 @@ def test_a_control_socket_in_use_is_left_to_its_program_and_a_stale_one_is_repla
         assert os.path.samestat(path.stat(), before)
     ControlSocket(path, lambda line: line).close()
     assert not path.exists()
+
+
+def test_a_burst_of_questions_is_answered_in_full_as_fast_as_the_client_reads(tmp_path: Path) -> None:
+    control = ControlSocket(tmp_path / "control", lambda line: 3000 * line)
+    with closing(control), socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
+        client.connect(str(tmp_path / "control"))
+        client.sendall(b"x\n" * 1000)
+        client.shutdown(socket.SHUT_WR)
+        client.setblocking(False)
+        replies = bytearray()
+
+        def ended() -> bool:
+            control.send_rest()
+            for descriptor in select.select(control.descriptors(), [], [], 0.0)[0]:
+                control.serve(descriptor)
+            with suppress(BlockingIOError):
+                data = client.recv(65536)
+                replies.extend(data)
+                return not data
+            return False
+
+        wait_for(ended, meanwhile=lambda: None)
+    assert replies == (3000 * b"x" + b"\n") * 1000
+
+
+def test_a_client_that_leaves_before_it_has_read_its_replies_is_forgotten(tmp_path: Path) -> None:
+    control = ControlSocket(tmp_path / "control", lambda line: 30000 * line)
+    with closing(control):
+        (listening,) = control.descriptors()
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
+            client.connect(str(tmp_path / "control"))
+            client.sendall(b"x\n" * 32)
+            control.serve(listening)
+            (other,) = set(control.descriptors()) - {listening}
+            control.serve(other)
+            assert control.descriptors() == [listening]  # not before it has read
+        control.send_rest()
+        with pytest.raises(OSError, match="Bad file descriptor"):
+            os.fstat(other)
 
 
 def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
