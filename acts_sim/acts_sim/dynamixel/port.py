@@ -30,7 +30,7 @@ _QUIET_S = 0.3
 _LONGEST_STAY_S = 4.0
 
 # After a longer pause of the process the missed steps are skipped: the motors' time has stood still.
-_MAX_CATCH_UP_S = 0.1
+_MAX_CATCH_UP_NS = 100_000_000
 
 
 class BusPort:
@@ -126,18 +126,20 @@ class BusPort:
 
     def run(self, control: ControlSocket | None = None) -> None:
         """Serve the port, and the control socket if there is one, until `stop` is called."""
-        due_s = time.monotonic()
+        # Whole nanoseconds: after months of a machine's time, each sum of seconds would be rounded the same way.
+        step_ns = round(self._step_s * 1e9)
+        due_ns = time.monotonic_ns()
         while not self._is_over():
-            now_s = time.monotonic()
-            if now_s >= due_s:
-                if now_s - due_s > _MAX_CATCH_UP_S:
-                    due_s = now_s
+            now_ns = time.monotonic_ns()
+            if now_ns >= due_ns:
+                if now_ns - due_ns > _MAX_CATCH_UP_NS:
+                    due_ns = now_ns
                 self._step(self._step_s)
-                due_s += self._step_s
+                due_ns += step_ns
             self._send_due()
-            next_s = min(due_s, self._answers[0][0]) if self._answers else due_s
+            next_s = min(due_ns / 1e9, self._answers[0][0]) if self._answers else due_ns / 1e9
             # Checked after every step, so that a reply need not wait until missed steps are made up.
-            waiting = []
+            waiting: list[int] = []
             if control is not None:
                 control.send_rest()
                 waiting = control.descriptors()

@@ -17,6 +17,7 @@ import time
 from collections.abc import Iterator
 from contextlib import closing, suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from dynamixel_sdk import COMM_SUCCESS, GroupBulkRead, GroupSyncRead, GroupSyncWrite
@@ -221,6 +222,30 @@ def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
     port = BusPort(Bus([]), lambda _dt_s: None, 0.002, link, 0)
     assert str(link.readlink()) == port.path
     port.close()
+
+
+def test_steps_keep_their_time_for_hours_on_a_machine_that_runs_for_months(monkeypatch: pytest.MonkeyPatch) -> None:
+    begin_ns, steps = 10_000_000 * 10**9, 20_000  # 116 days
+    now_ns, stepped_ns = begin_ns, []
+
+    def wait(_read: object, _write: object, _other: object, timeout_s: float) -> tuple[list[int], list[int], list[int]]:
+        nonlocal now_ns
+        now_ns += max(round(timeout_s * 1e9), 1)
+        return [], [], []
+
+    def step(_dt_s: float) -> None:
+        stepped_ns.append(now_ns)
+        if len(stepped_ns) == steps:
+            port.stop()
+
+    clock = SimpleNamespace(monotonic=lambda: now_ns / 1e9, monotonic_ns=lambda: now_ns)
+    monkeypatch.setattr("acts_sim.dynamixel.port.time", clock)
+    monkeypatch.setattr("acts_sim.dynamixel.port.select", SimpleNamespace(select=wait))
+    port = BusPort(Bus([]), step, 0.002, None, 0)
+    port.run()
+    port.close()
+    # The clock in seconds has steps of 2 ns by then.
+    assert stepped_ns[-1] - begin_ns == pytest.approx(2_000_000 * (steps - 1), abs=100)
 
 
 def test_a_cable_that_is_torn_off_comes_back_under_its_name(tmp_path: Path) -> None:
