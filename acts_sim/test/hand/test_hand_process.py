@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -21,6 +22,7 @@ from dynamixel_sdk import COMM_SUCCESS, GroupSyncRead, GroupSyncWrite
 from hand_motors import AROUND_SPHERE
 from motor_bus import IDS, MotorBus
 
+from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.skin import layout
 from acts_sim.hand import HandTruth, TruthFollower
 from acts_sim.hand.process.main import parse
@@ -195,6 +197,18 @@ def test_one_path_for_two_files_is_refused(capsys: pytest.CaptureFixture[str], o
         parse([one, "/tmp/same", other, "/tmp/same"])
     assert ended.value.code == 2
     assert f"{one} and {other} are both /tmp/same" in capsys.readouterr().err
+
+
+def test_the_truth_of_another_world_is_left_alone(rig: Rig, tmp_path: Path) -> None:
+    ring = rig.link.with_name("truth.ring")
+    before = ring.stat()
+    command = [sys.executable, "-m", "acts_ros.executables.program", "acts_sim.hand.process.main"]
+    command += ["--link", str(tmp_path / "hand"), "--field-ring", str(tmp_path / "field.ring")]
+    command += ["--control", str(rig.control), "--truth-ring", str(ring)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=50, check=False)
+    assert ended.returncode == REFUSED_EXIT_CODE
+    assert f"{ring} is in use by process {rig.process.pid}" in ended.stderr
+    assert os.path.samestat(ring.stat(), before)
 
 
 def test_a_signal_while_the_world_is_made_ends_the_process_in_order_and_at_once(tmp_path: Path) -> None:

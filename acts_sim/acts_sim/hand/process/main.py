@@ -71,7 +71,7 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     """
     scheduling = settings_from(options, RealtimeConfig)
     with contextlib.ExitStack() as stack:
-        for path in (options.field_ring, options.link):
+        for path in (options.field_ring, options.truth_ring, options.link):
             stack.enter_context(contextlib.closing(FileClaim(path)))
         # Its kernels are compiled here where they are new, which takes long.
         with signals.interrupting():
