@@ -4,7 +4,8 @@
 """The control table of the XC330-M288-T and XL330-M288-T: registers and their addresses.
 
 These motors are those of the LEAP hand. Source: https://emanual.robotis.com/docs/en/dxl/x/xc330-m288/ and
-.../xl330-m288/. Both have the same addresses; they differ in model number, current limit, gains and shutdown.
+.../xl330-m288/. Both have the same addresses; they differ in model number, limits of current and velocity, gains
+and shutdown.
 """
 
 from __future__ import annotations
@@ -97,7 +98,7 @@ _REGISTERS = (
     Register("min_voltage_limit", 34, 2, 35, 31, 70),
     Register("pwm_limit", 36, 2, LARGEST_PWM, 0, LARGEST_PWM),
     Register("current_limit", 38, 2, 2352, 0, 2352),
-    Register("velocity_limit", 44, 4, 380, 0, 2047),
+    Register("velocity_limit", 44, 4, 350, 0, 2047),
     Register("max_position_limit", 48, 4, 4095, 0, 4095),
     Register("min_position_limit", 52, 4, 0, 0, 4095),
     Register("startup_configuration", 60, 1, 0, 0, 3),
@@ -109,7 +110,7 @@ _REGISTERS = (
     Register("registered_instruction", 69, 1),
     Register("hardware_error_status", 70, 1),
     Register("velocity_i_gain", 76, 2, 1600, 0, 16383),
-    Register("velocity_p_gain", 78, 2, 180, 0, 16383),
+    Register("velocity_p_gain", 78, 2, 50, 0, 16383),
     Register("position_d_gain", 80, 2, 500, 0, 16383),
     Register("position_i_gain", 82, 2, 0, 0, 16383),
     Register("position_p_gain", 84, 2, 1100, 0, 16383),
@@ -179,7 +180,16 @@ XC330 = Model("XC330-M288-T", _changed(_REGISTERS), 0.93, 1800.0, 8.48)
 XL330 = Model(
     "XL330-M288-T",
     _limited(
-        _changed(_REGISTERS, model_number=1200, position_d_gain=0, position_p_gain=400, shutdown=53), limit_ma=1750
+        _changed(
+            _REGISTERS,
+            model_number=1200,
+            velocity_limit=445,
+            velocity_p_gain=180,
+            position_d_gain=0,
+            position_p_gain=400,
+            shutdown=53,
+        ),
+        limit_ma=1750,
     ),
     0.52,
     1470.0,

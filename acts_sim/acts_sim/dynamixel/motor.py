@@ -28,10 +28,25 @@ _WATCHDOG_EXPIRED = 255
 # Read-only while the bus watchdog has expired.
 _GOALS = {"goal_pwm", "goal_current", "goal_velocity", "goal_position"}
 
+# Goals, and the registers that say how large they may be.
+_LIMITS = {"goal_pwm": "pwm_limit", "goal_current": "current_limit", "goal_velocity": "velocity_limit"}
+
 # Computed when they are read.
 _MEASURED = {"present_position", "present_velocity", "moving", "position_trajectory", "realtime_tick"}
 
-_MOVING_RAD_S = 10 * RAD_S_PER_VELOCITY_UNIT
+# Back to their values of the start where the operating mode changes; the limits of PWM and current are apart.
+_OF_THE_MODE = (
+    "velocity_i_gain",
+    "velocity_p_gain",
+    "position_d_gain",
+    "position_i_gain",
+    "position_p_gain",
+    "feedforward_2nd_gain",
+    "feedforward_1st_gain",
+    "profile_acceleration",
+    "profile_velocity",
+)
+
 _STILL_RAD_S = 0.05
 
 
@@ -134,7 +149,7 @@ class Motor:
         self._values["id"] = motor_id
         self._values["return_delay_time"] = return_delay_time
         self._values["operating_mode"] = operating_mode
-        self._values["goal_current"] = self._goal_current_of(operating_mode)
+        self._reset_limits(operating_mode)
 
     # --- the control table
 
@@ -204,9 +219,9 @@ class Motor:
         return StatusError.NONE
 
     def action(self) -> int:
-        """Execute the stored write; return the error number."""
+        """Execute the stored write; return the error number, also where none is stored."""
         if self._registered is None:
-            return StatusError.NONE
+            return StatusError.INSTRUCTION
         address, data = self._registered
         self._registered = None
         self._values["registered_instruction"] = 0
@@ -237,9 +252,7 @@ class Motor:
             return StatusError.DATA_RANGE
         if self["bus_watchdog"] == _WATCHDOG_EXPIRED and (name in _GOALS or (name == "bus_watchdog" and value)):
             return StatusError.DATA_RANGE
-        if name == "goal_current" and abs(value) > self["current_limit"]:
-            return StatusError.DATA_LIMIT
-        if name == "goal_pwm" and abs(value) > self["pwm_limit"]:
+        if name in _LIMITS and abs(value) > self[_LIMITS[name]]:
             return StatusError.DATA_LIMIT
         if (
             name == "goal_position"
@@ -255,14 +268,15 @@ class Motor:
         if name == "torque_enable" and value != self["torque_enable"]:
             self._hold_still()
         if name == "operating_mode" and value != self["operating_mode"]:
-            for gain in ("position_p_gain", "position_i_gain", "position_d_gain", "goal_pwm"):
-                self._values[gain] = self.model.registers[gain].initial
-            self._values["goal_current"] = self._goal_current_of(value)
+            for register in _OF_THE_MODE:
+                self._values[register] = self.model.registers[register].initial
+            self._reset_limits(value)
         self._values[name] = value
 
-    def _goal_current_of(self, mode: int) -> int:
-        """Goal current at the start in a mode [mA]: none where it is what flows, the largest where it is a limit."""
-        return 0 if mode == _CURRENT else self.model.registers["goal_current"].initial
+    def _reset_limits(self, mode: int) -> None:
+        """Set goal PWM and goal current as at the start in a mode: a current that flows is none, limits are whole."""
+        self._values["goal_pwm"] = self._values["pwm_limit"]
+        self._values["goal_current"] = 0 if mode == _CURRENT else self._values["current_limit"]
 
     def _hold_still(self) -> None:
         """Set the goal to the present position, when the torque is switched on or off."""
@@ -284,7 +298,7 @@ class Motor:
         for register in self.model.registers.values():
             if register.address >= EEPROM_END:
                 self._values[register.name] = register.initial
-        self._values["goal_current"] = self._goal_current_of(self["operating_mode"])
+        self._reset_limits(self["operating_mode"])
         self._registered = None
         self._since_start_s = self._silent_s = self._stalled_s = 0.0
         self._hold_still()
@@ -345,11 +359,19 @@ class Motor:
             if self._values["operating_mode"] == _CURRENT:
                 self._values["goal_current"] = 0
 
+    @property
+    def _is_on_its_way(self) -> bool:
+        """Whether the profile has not reached the goal yet."""
+        values = self._values
+        has_profile = values["torque_enable"] and values["profile_velocity"] and values["operating_mode"] != _CURRENT
+        return bool(has_profile) and self._trajectory.ticks != values["goal_position"]
+
     def _sense(self) -> None:
         """Write the measured values to the control table."""
         shaft, values = self.shaft, self._values
         values["present_position"] = math.floor(shaft.position_rad / RAD_PER_TICK)
         values["present_velocity"] = round(shaft.velocity_rad_s / RAD_S_PER_VELOCITY_UNIT)
-        values["moving"] = int(abs(shaft.velocity_rad_s) > _MOVING_RAD_S)
+        moves = abs(shaft.velocity_rad_s) > values["moving_threshold"] * RAD_S_PER_VELOCITY_UNIT
+        values["moving"] = int(moves or self._is_on_its_way)
         values["position_trajectory"] = round(self._trajectory.ticks)
         values["realtime_tick"] = int(self._since_start_s * 1e3) % 32768

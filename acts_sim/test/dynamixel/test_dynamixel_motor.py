@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from acts_sim.dynamixel import RAD_PER_TICK, Bus, Motor, OverloadLaw
-from acts_sim.dynamixel.control_table import SIZE, XC330, XL330
+from acts_sim.dynamixel.control_table import SIZE, XC330, XL330, Model
+from acts_sim.dynamixel.drive import RAD_S_PER_VELOCITY_UNIT
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import HardwareError, OperatingMode, StatusError
 from acts_sim.dynamixel.packets import Instruction, Packet
@@ -57,6 +58,45 @@ def test_another_mode_brings_back_the_gains_and_the_goal_current_of_the_start() 
     write(motor, TORQUE, 0)
     assert write(motor, MODE, OperatingMode.EXTENDED_POSITION) == 0
     assert (motor["position_p_gain"], motor["position_d_gain"], motor["goal_current"]) == (1100, 500, 2352)
+
+
+def test_another_mode_ends_the_profile_and_keeps_goals_within_the_limits() -> None:
+    motor, _ = holding()
+    write(motor, TORQUE, 0)
+    for address, number, size in ((36, 500, 2), (38, 800, 2), (108, 7, 4), (112, 50, 4), (78, 9, 2), (88, 8, 2)):
+        assert write(motor, address, number, size) == 0
+    assert write(motor, MODE, OperatingMode.EXTENDED_POSITION) == 0
+    assert (motor["profile_acceleration"], motor["profile_velocity"], motor["feedforward_2nd_gain"]) == (0, 0, 0)
+    assert motor["velocity_p_gain"] == XC330.registers["velocity_p_gain"].initial
+    assert (motor["goal_pwm"], motor["goal_current"]) == (500, 800)
+    motor.reboot()
+    assert (motor["goal_pwm"], motor["goal_current"]) == (500, 800)
+
+
+def test_a_motor_moves_by_its_own_threshold_and_as_long_as_its_profile_lasts() -> None:
+    motor, joints = holding()
+    motor.shaft.velocity_rad_s = 20 * RAD_S_PER_VELOCITY_UNIT
+    assert motor["moving"] == 1
+    write(motor, TORQUE, 0)
+    assert write(motor, 24, 30, 4) == 0
+    assert motor["moving"] == 0
+    motor.shaft.velocity_rad_s = 0.0
+    joints.blocked.add(0)
+    write(motor, TORQUE, 1)
+    write(motor, 112, 50, 4)  # 800 pulses/s
+    write(motor, GOAL, 2448, 4)
+    steps(joints, 0.45)
+    assert motor["moving"] == 1
+    steps(joints, 0.1)
+    assert motor["moving"] == 0
+
+
+def test_an_action_without_a_write_that_waits_for_it_is_an_error() -> None:
+    motor = Motor(XC330, 3)
+    assert motor.action() == StatusError.INSTRUCTION
+    assert motor.register_write(bytes([65, 0, 1])) == 0
+    assert (motor.action(), motor["led"]) == (0, 1)
+    assert motor.action() == StatusError.INSTRUCTION
 
 
 def test_a_goal_is_reached_and_kept() -> None:
@@ -204,6 +244,7 @@ def test_scattered_registers_are_read_together_through_the_indirect_addresses() 
         (84, (20000).to_bytes(2, "little"), StatusError.DATA_RANGE),
         (11, b"\x01", StatusError.DATA_RANGE),  # a mode that is not simulated
         (116, (5000).to_bytes(4, "little"), StatusError.DATA_LIMIT),  # beyond the range of position control
+        (104, (-351).to_bytes(4, "little", signed=True), StatusError.DATA_LIMIT),  # beyond the velocity limit
         (255, b"\x00\x00", StatusError.DATA_RANGE),
     ],
 )
@@ -215,6 +256,17 @@ def test_the_small_motor_is_another_model() -> None:
     motor = Motor(XL330, 3)
     assert (motor["model_number"], motor["goal_current"], motor["position_p_gain"]) == (1200, 1750, 400)
     assert write(motor, CURRENT, 1751, 2) == StatusError.DATA_RANGE
+
+
+@pytest.mark.parametrize(
+    ("model", "limit", "gain"),
+    [(XC330, 350, 50), (XL330, 445, 180)],
+)
+def test_velocities_are_limited_as_the_manual_of_the_model_says(model: Model, limit: int, gain: int) -> None:
+    motor = Motor(model, 3)
+    assert (motor["velocity_limit"], motor["velocity_p_gain"]) == (limit, gain)
+    assert write(motor, 104, limit, 4) == 0
+    assert write(motor, 104, limit + 1, 4) == StatusError.DATA_LIMIT
 
 
 @given(st.integers(0, SIZE), st.binary(max_size=30), st.integers(0, SIZE), st.integers(0, SIZE))
