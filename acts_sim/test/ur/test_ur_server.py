@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import json
 import random
 import signal
 import socket
@@ -193,6 +194,14 @@ def test_a_flood_of_commands_does_not_stop_the_clock(simulator: Simulator) -> No
     # What was sent before the end of that connection is read first, and until then its registers are taken.
     wait_for(are_free, "the registers to be given back")
     alive(simulator)
+
+
+def test_a_burst_of_questions_is_answered_in_full(simulator: Simulator) -> None:
+    with connect(HOOK_PORT) as connection:
+        connection.sendall(b"state\n" * 5000)
+        connection.shutdown(socket.SHUT_WR)
+        replies = read_until_closed(connection).splitlines()
+    assert [set(json.loads(reply)) for reply in replies] == [set(simulator.state())] * 5000
 
 
 def test_the_real_client_still_connects_after_all_that(simulator: Simulator) -> None:

@@ -34,6 +34,9 @@ _MAX_CATCH_UP_CYCLES = 50
 # Bytes read per cycle: 680 servo commands, far more than a client without pauses can send.
 _READ_BYTES = 65536
 
+# Bytes read at once of a client whose requests are answered at once: that must not delay the next cycle.
+_REQUEST_BYTES = 512
+
 # About a tenth of a second of data packages, so that a client that was delayed soon gets present data again.
 _SEND_BUFFER_BYTES = 65536
 
@@ -197,7 +200,8 @@ class Server:
         """Serve the sockets until the next cycle is due or data have arrived."""
         writers = [connection for connection in self._connections if connection.pending]
         readers: list[socket.socket | _Connection] = list(self._listeners)
-        readers += [connection for connection in self._connections if not connection.session.streaming]
+        # A client that has not taken its replies yet is not asked for more requests.
+        readers += [one for one in self._connections if not one.session.streaming and not one.pending]
         readable, writable, _ = select.select(readers, writers, [], timeout_s)
         for connection in writable:
             if not connection.flush():
@@ -230,7 +234,7 @@ class Server:
         if connection.fileno() < 0:
             return  # dropped a moment ago
         try:
-            data = connection.socket.recv(_READ_BYTES)
+            data = connection.socket.recv(_READ_BYTES if connection.session.streaming else _REQUEST_BYTES)
         except (BlockingIOError, InterruptedError):
             return
         except OSError:
