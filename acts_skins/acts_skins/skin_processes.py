@@ -13,6 +13,7 @@ from acts_core.files import require_regular
 from acts_driver.settings import DriverSettings
 from acts_ros.processes import packages
 from acts_ros.processes.process import Process
+from acts_sim.ball import WorldConfig
 from acts_skins.skins_file import Skin, SkinsFile
 from acts_skins.tactile_parameters import TactileParameters, tactile_parameters
 
@@ -87,6 +88,11 @@ class SkinProcesses:
         ring = f"{folder}/field.ring"
         world: dict[str, object] = {"field_ring": ring, "joint_ring": "none", "seed": number + 1}
         shown = parameters.reconstruction
+        try:
+            WorldConfig(pitch_m=shown.pitch_m, row_pitch_m=shown.row_pitch_m)
+        except SettingsError as error:
+            key = str(error).partition(" ")[0]
+            raise skin.section.error(f"{error}, for a simulated ball; or give it a recording", key) from None
         world.update(rows=driver.rows, cols=driver.cols, layout=shown.layout)
         world.update(pitch_m=shown.pitch_m, row_pitch_m=shown.row_pitch_m)
         pushes = packages.share("acts_config", self._environment) / "params" / "tactile.yaml"

@@ -275,6 +275,15 @@ def test_a_file_that_is_missing_is_refused_with_its_place_before_anything_starts
     assert f"skins.yaml:4: skin right: {words.format(folder=tmp_path)}" in str(caught.value)
 
 
+def test_taxels_too_large_for_a_simulated_ball_are_refused_with_their_place_before_anything_starts(
+    tmp_path: Path,
+) -> None:
+    path = skins_yaml(tmp_path, TWO.replace("m: 64", "\n    row_pitch_m: 0.2"))
+    with pytest.raises(SettingsError, match=r"skins\.yaml:5: skin right: row_pitch_m = 0\.2: allowed is .*recording"):
+        plan(path, simulated=True)
+    assert list(plan(path, simulated=False)) == ["left/tactile", "right/tactile"]
+
+
 def test_a_calibration_and_what_is_no_file_may_be_missing(tmp_path: Path) -> None:
     further = "driver: {calibration_file: new.npz, model: none}, reconstruction: {object_library: ''}"
     commands = plan(

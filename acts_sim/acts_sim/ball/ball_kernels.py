@@ -18,7 +18,10 @@ from acts_core.kernels import kernel
 STANDARD_GRAVITY_M_S2 = 9.80665
 
 SUBPOINTS = 4
-"""Points along a taxel's side at which the pressure is evaluated."""
+"""Points along a taxel's side at which the pressure is evaluated, at least."""
+
+LARGEST_SPACING_M = 0.0125
+"""Largest distance of these points [m]: between points much further apart a ball would press nothing, or too much."""
 
 # Three-point Gauss-Hermite rule of a Gaussian with standard deviation 1: exact for polynomials up to the fifth degree.
 SPREAD_OFFSETS = (-math.sqrt(3.0), 0.0, math.sqrt(3.0))
@@ -174,6 +177,18 @@ def roll(
 
 
 @kernel
+def _points(pitch_m: float, spread_m: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points along a taxel's side, each three times for the spread: their places from its middle [m], their weights."""
+    count = max(SUBPOINTS, math.ceil(pitch_m / LARGEST_SPACING_M))
+    offset, weight = np.empty(3 * count), np.empty(3 * count)
+    for i in range(count):
+        for j in range(3):
+            offset[3 * i + j] = ((i + 0.5) / count - 0.5) * pitch_m + SPREAD_OFFSETS[j] * spread_m
+            weight[3 * i + j] = SPREAD_WEIGHTS[j] / count
+    return offset, weight
+
+
+@kernel
 def press(
     counts: NDArray[np.float64],
     pitch_m: float,
@@ -213,30 +228,22 @@ def press(
     last_col = min(math.floor(col_middle + reach_x), cols - 1)
     first_row = max(math.ceil(row_middle - reach_y), 0)
     last_row = min(math.floor(row_middle + reach_y), rows - 1)
-    points = SUBPOINTS * 3
-    weight = np.empty(points)
-    offset_x = np.empty(points)
-    offset_y = np.empty(points)
-    for i in range(SUBPOINTS):
-        for j in range(3):
-            share, aside = (i + 0.5) / SUBPOINTS - 0.5, SPREAD_OFFSETS[j] * spread_m
-            offset_x[3 * i + j] = share * pitch_m + aside
-            offset_y[3 * i + j] = share * row_pitch_m + aside
-            weight[3 * i + j] = SPREAD_WEIGHTS[j] / SUBPOINTS
-    rise_x = np.empty(points)
+    offset_x, weight_x = _points(pitch_m, spread_m)
+    offset_y, weight_y = _points(row_pitch_m, spread_m)
+    rise_x = np.empty(len(offset_x))
     for col in range(first_col, last_col + 1):
-        for i in range(points):
+        for i in range(len(offset_x)):
             distance = (col - col_middle) * pitch_m + offset_x[i]
             rise_x[i] = depth_m - distance * distance / (2.0 * radius_m)
         for row in range(first_row, last_row + 1):
             total = 0.0
-            for j in range(points):
+            for j in range(len(offset_y)):
                 distance = (row_middle - row) * row_pitch_m + offset_y[j]
                 rise_y = distance * distance / (2.0 * radius_m)
                 line = 0.0
-                for i in range(points):
-                    line += weight[i] * max(rise_x[i] - rise_y, 0.0)
-                total += weight[j] * line
+                for i in range(len(offset_x)):
+                    line += weight_x[i] * max(rise_x[i] - rise_y, 0.0)
+                total += weight_y[j] * line
             above = stiffness_n_per_m3 * total * pitch_m * row_pitch_m - dead_n
             if above > 0.0:
                 counts[row, col] = full_scale_counts * above / (above + half_n)

@@ -14,6 +14,7 @@ from acts_core.skin import ForceResponse
 from acts_sim.ball.ball import BallConfig
 from acts_sim.ball.ball_contact import BallContact, ContactConfig, depth_m
 from acts_sim.ball.ball_kernels import SPREAD_OFFSETS, SPREAD_WEIGHTS, SUBPOINTS
+from acts_sim.ball.world import WorldConfig
 
 GEOMETRY = ArrayGeometry()
 CONFIG = ContactConfig()
@@ -98,6 +99,15 @@ def test_the_centre_of_pressure_is_the_ball() -> None:
 def test_the_taxels_carry_the_load(load_n: float) -> None:
     total = forces_n(CONFIG, GEOMETRY, RADIUS_M, 0.0123, -0.0345, load_n).sum()
     assert total == pytest.approx(load_n, rel=0.01)
+
+
+def test_large_taxels_carry_the_load_wherever_the_ball_is() -> None:
+    pitch_m = WorldConfig(pitch_m=0.1).geometry.pitch_m  # the largest
+    under = contact(geometry=ArrayGeometry(8, 8, pitch_m))
+    rng = np.random.default_rng(3)
+    for x_m, y_m in rng.uniform(-1.5 * pitch_m, 1.5 * pitch_m, (200, 2)):
+        under.press(x_m, y_m, LOAD_N)
+        assert RESPONSE.force_n(under.counts).sum() == pytest.approx(LOAD_N, rel=0.2)
 
 
 def test_the_footprint_is_about_five_taxels_and_wide_enough_for_the_neighbour_search() -> None:
