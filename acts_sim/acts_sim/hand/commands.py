@@ -94,14 +94,14 @@ def _put(world: HandWorld, words: list[str]) -> None:
     _needs_object(world)
     x, y = (_number(words, k, 0.0, _MOST_MM) for k in range(2))
     height = _number(words, 2, 0.0, _MOST_MM, 0.0)
-    world.put(x * _MM, y * _MM, height * _MM, held=world.holder.holding)
+    world.put(x * _MM, y * _MM, height * _MM, held=world.holder.keeps)
 
 
 def _move(world: HandWorld, words: list[str]) -> None:
     _needs_object_in_hand(world, "move")
     way, turn = _vector(words, 0, _MOST_MM) * _MM, np.radians(_vector(words, 3, _MOST_DEG))
     duration_s = _number(words, 6, 1.0, _MOST_S, 0.01)
-    if not world.holder.holding:
+    if not world.holder.keeps:
         raise SettingsError("move: nothing holds the object; hold first")
     world.holder.move(way, turn, duration_s)
 

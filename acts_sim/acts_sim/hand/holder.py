@@ -46,6 +46,11 @@ class Holder:
         return self._strength > 0.0
 
     @property
+    def keeps(self) -> bool:
+        """Whether it goes on to hold the object: it does, and was not told to let go."""
+        return self.holding and not self._letting_go
+
+    @property
     def strength(self) -> float:
         """Factor on the springs: 1, less while they fade after `let_go`, and 0 without."""
         return self._strength

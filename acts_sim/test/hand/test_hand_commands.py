@@ -81,6 +81,19 @@ def test_what_is_let_go_falls_out_of_an_open_hand_and_can_be_put_back() -> None:
     assert not run(world, 0.3).object_lost
 
 
+def test_what_was_let_go_a_moment_ago_is_held_no_more() -> None:
+    world = HandWorld(HandWorldConfig(object_held=True))
+    carry_out(world, "put 0 0 30")
+    assert run(world, STEP_S).object_held
+    carry_out(world, "let_go")
+    with pytest.raises(SettingsError, match="nothing holds the object; hold first"):
+        carry_out(world, "move 0 0 -10")
+    carry_out(world, "put 0 0 30")
+    fallen = run(world, 0.3)
+    assert not fallen.object_held
+    assert fallen.patches["palm"].force_n > 0.5 * world.weight_n
+
+
 def test_what_is_held_is_not_lost_however_far_away_it_is_moved() -> None:
     world = HandWorld(HandWorldConfig(object="small_sphere", object_held=True))
     carry_out(world, "move 0 0 -190 0 0 0 0.3")
