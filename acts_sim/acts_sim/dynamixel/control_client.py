@@ -52,8 +52,10 @@ class ControlClient:
         Raises
         ------
         ActsError
-            When there is no reply within 10 s.
+            When there is no reply within 10 s, or was none to an earlier line: that one may still come.
         """
+        if self._socket.fileno() < 0:
+            raise ActsError(f"{self._path}: the simulation has not answered before; connect to it anew")
         answer = b""
         try:
             self._socket.sendall(line.encode() + b"\n")
@@ -63,6 +65,7 @@ class ControlClient:
                     raise ActsError(f"{self._path}: the simulation has gone")
                 answer += received
         except OSError as error:
+            self.close()
             raise ActsError(f"{self._path}: the simulation does not answer ({error})") from error
         return answer.decode().strip()
 

@@ -25,8 +25,8 @@ from motor_bus import IDS, MotorBus
 from serial import SerialException
 from waiting import wait_for
 
-from acts_core.errors import REFUSED_EXIT_CODE, RobotError
-from acts_sim.dynamixel import Bus, BusPort, ControlSocket
+from acts_core.errors import REFUSED_EXIT_CODE, ActsError, RobotError
+from acts_sim.dynamixel import Bus, BusPort, ControlClient, ControlSocket
 
 QUIET_S = 0.3
 """So long a bus that is to end waits for a client."""
@@ -209,6 +209,22 @@ def test_a_client_that_leaves_before_it_has_read_its_replies_is_forgotten(tmp_pa
         control.send_rest()
         with pytest.raises(OSError, match="Bad file descriptor"):
             os.fstat(other)
+
+
+def test_a_late_reply_is_not_taken_for_that_to_the_next_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("acts_sim.dynamixel.control_client._TIMEOUT_S", 0.05)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as simulation:
+        simulation.bind(str(tmp_path / "control"))
+        simulation.listen()
+        with ControlClient(tmp_path / "control") as client:
+            with pytest.raises(ActsError, match=r"control: the simulation does not answer \(timed out\)"):
+                client.do("lose 3")
+            connected, _ = simulation.accept()
+            with connected:
+                with suppress(BrokenPipeError):
+                    connected.sendall(b"ok\n")
+                with pytest.raises(ActsError, match="control: the simulation has not answered before; connect to it"):
+                    client.do("find 3")
 
 
 def test_a_link_to_something_else_is_kept(tmp_path: Path) -> None:
