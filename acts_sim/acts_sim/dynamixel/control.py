@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 from collections.abc import Callable
 from contextlib import suppress
@@ -55,6 +56,7 @@ class ControlSocket:
                 path.unlink()
             self._listener.bind(str(path))
             path.chmod(0o600)
+            self._made = path.lstat()
         except OSError as error:
             self._listener.close()
             raise RobotError(f"{path}: the control socket cannot be made ({error}); give another path") from error
@@ -81,13 +83,14 @@ class ControlSocket:
             self._send(descriptor)
 
     def close(self) -> None:
-        """Close all descriptors and remove the socket's file."""
+        """Close all descriptors and remove the socket's file, unless another program has replaced it."""
         for client in self._clients.values():
             client.socket.close()
         self._clients.clear()
         self._listener.close()
         with suppress(FileNotFoundError):
-            self._path.unlink()
+            if os.path.samestat(self._path.lstat(), self._made):
+                self._path.unlink()
 
     def _accept(self) -> None:
         with suppress(BlockingIOError):

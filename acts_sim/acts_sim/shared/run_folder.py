@@ -109,8 +109,11 @@ class FileClaim:
     def close(self) -> None:
         """Release it. May be called again."""
         if self._fd >= 0:
-            # Remove it while it is still locked: afterwards it may belong to another process.
-            self._path.unlink(missing_ok=True)
+            # Remove it while it is still locked: afterwards it may belong to another process. It does already where
+            # somebody has cleared the folder meanwhile.
+            with suppress(FileNotFoundError):
+                if os.path.samestat(os.fstat(self._fd), self._path.lstat()):
+                    self._path.unlink()
             os.close(self._fd)
             self._fd = -1
 

@@ -172,6 +172,17 @@ def test_a_control_socket_in_use_is_left_to_its_program_and_a_stale_one_is_repla
     assert not path.exists()
 
 
+def test_a_control_socket_that_another_has_replaced_after_its_file_was_removed_stays(tmp_path: Path) -> None:
+    path = tmp_path / "control"
+    first = ControlSocket(path, lambda line: line)
+    path.unlink()
+    second = ControlSocket(path, lambda line: line)
+    first.close()
+    assert path.is_socket()
+    second.close()
+    assert not path.exists()
+
+
 def test_a_burst_of_questions_is_answered_in_full_as_fast_as_the_client_reads(tmp_path: Path) -> None:
     control = ControlSocket(tmp_path / "control", lambda line: 3000 * line)
     with closing(control), socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:

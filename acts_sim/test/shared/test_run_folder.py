@@ -160,3 +160,16 @@ def test_a_full_folder_is_told_and_nothing_of_the_lock_stays(tmp_path: Path, mon
             FileClaim(tmp_path / "field.ring")
     assert list(tmp_path.iterdir()) == []
     FileClaim(tmp_path / "field.ring").close()
+
+
+def test_a_lock_that_another_has_taken_after_the_folder_was_cleared_stays(tmp_path: Path) -> None:
+    path, lock = tmp_path / "field.ring", tmp_path / "field.ring.lock"
+    first = FileClaim(path)
+    lock.unlink()
+    second = FileClaim(path)
+    first.close()
+    assert lock.exists()
+    with pytest.raises(SettingsError, match="is in use by process"):
+        FileClaim(path)
+    second.close()
+    assert not lock.exists()
