@@ -165,14 +165,18 @@ class BallWorld(Node):
             stood_ms = (loop.skipped - before.skipped) * STEP_NS // _NS_PER_MS
             return WARN, f"the world stood still for {stood_ms} ms", values
         if state.phase is Phase.FALLEN:
-            after_s = self._settings.replace_after_s
-            back = (
-                f"put back after {after_s:g} s"
-                if after_s
-                else "start ball_world anew to put it back (replace_after_s is 0)"
-            )
+            back = way_back(self._settings.replace_after_s, state.phase_time_s)
             return WARN, f"the ball has fallen off the plate: {back}", values
         return OK, f"the ball is {state.phase.value}", values
+
+
+def way_back(replace_after_s: float, fallen_s: float) -> str:
+    """How a ball comes back that fell off a while ago [s], in words; `replace_after_s` as of `WorldConfig`."""
+    if not replace_after_s:
+        return "start ball_world anew to put it back (replace_after_s is 0)"
+    if fallen_s < replace_after_s:
+        return f"put back after {replace_after_s:g} s"
+    return "put back once the plate is level and still (start_slope, start_turn_rate_rad_s)"
 
 
 SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}

@@ -22,7 +22,7 @@ from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse
 from acts_ros import qos
-from acts_sim.ball.ball_world_node import BallWorldSettings
+from acts_sim.ball.ball_world_node import BallWorldSettings, way_back
 from acts_sim.shared import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 pytestmark = pytest.mark.slow
@@ -261,3 +261,11 @@ def test_a_ball_that_has_fallen_off_is_told_with_how_it_comes_back(
     pushed = ("push_speed_m_s:=2.0", "push_period_s:=0.05", f"replace_after_s:={replace_after_s}")
     with world(103, tmp_path, "joint_ring:=none", "start_after_s:=0.0", *pushed):
         observer.until_reported(b"\x01", f"the ball has fallen off the plate: {words}")
+
+
+@pytest.mark.parametrize(
+    ("replace_after_s", "fallen_s", "words"),
+    [(0.0, 100.0, "anew"), (2.0, 1.9, "after 2 s"), (2.0, 2.1, "once the plate is level and still")],
+)
+def test_a_ball_whose_time_is_over_waits_for_the_plate(replace_after_s: float, fallen_s: float, words: str) -> None:
+    assert words in way_back(replace_after_s, fallen_s)
