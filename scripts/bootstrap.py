@@ -243,10 +243,14 @@ def write_environment() -> None:
     # What the user has set stays: these are defaults only.
     lines.append('export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"')
     lines.append(f'export ROS_LOG_DIR="${{ROS_LOG_DIR:-{STATE}/log/ros}}"')
+    text, path = "\n".join(lines) + "\n", STATE / "env.sh"
+    # Only where it has changed: on a full disk nothing could be written, and no command would run any more.
+    if up_to_date(path, text):
+        return
     # In one step: another command may be reading it.
-    fresh = STATE / "env.sh.new"
-    fresh.write_text("\n".join(lines) + "\n")
-    fresh.replace(STATE / "env.sh")
+    fresh = path.with_name("env.sh.new")
+    fresh.write_text(text)
+    fresh.replace(path)
 
 
 def packages() -> list[Path]:
@@ -365,6 +369,13 @@ def main() -> int:
             build_workspace()
     except SetupError as error:
         print(f"[setup] {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(
+            f"[setup] {error.filename or STATE}: {error.strerror}; when that is mended, the same command does what is "
+            "not finished",
+            file=sys.stderr,
+        )
         return 1
     except KeyboardInterrupt:
         print("[setup] interrupted; the same command does again what is not finished", file=sys.stderr)

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib.util
 import mmap
 import os
@@ -157,6 +158,34 @@ def test_without_network_the_last_line_speaks_of_it(
         monkeypatch.setattr(bootstrap, name, tmp_path / name)
     with pytest.raises(bootstrap.SetupError, match=r"ended with code 1\. The wheels come from the network"):
         bootstrap.create_venv()
+
+
+def test_a_full_disk_is_told_in_one_line(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full() -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(sys, "argv", ["bootstrap.py", "--this-python"])
+    monkeypatch.setattr(bootstrap, "STATE", tmp_path)
+    monkeypatch.setattr(bootstrap, "check_machine", lambda: None)
+    monkeypatch.setattr(bootstrap, "create_venv", full)
+    assert bootstrap.main() == 1
+    assert capsys.readouterr().err.startswith(f"[setup] {tmp_path}: No space left on device; when that is mended, ")
+
+
+def test_what_is_up_to_date_is_not_written_again(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As on a full disk, where every other command would fail."""
+    for name in ("STATE", "VENV", "BUILD", "INSTALL"):
+        monkeypatch.setattr(bootstrap, name, tmp_path)
+    bootstrap.write_environment()
+    (tmp_path / "env.sh.new").mkdir()
+    bootstrap.write_environment()
+    monkeypatch.setattr(bootstrap, "DISTRIBUTION", "another")
+    with pytest.raises(IsADirectoryError):
+        bootstrap.write_environment()
 
 
 def test_nothing_is_removed_under_what_runs(tmp_path: Path) -> None:
