@@ -167,7 +167,7 @@ def create_venv() -> None:
     started = time.monotonic()
     pip = [str(VENV / "bin/python"), "-m", "pip", "install", "--prefer-binary", "--no-input", "--progress-bar=off"]
     try:
-        run([*pip, "-r", str(LOCK)], "pip.log", env={**os.environ, "PYTHONDONTWRITEBYTECODE": ""})
+        run([*pip, "-r", str(LOCK)], "pip.log", env=pip_environment())
     except SetupError as error:
         raise SetupError(f"{error}. {NETWORK_HINT}") from None
     say(f"wheels installed in {time.monotonic() - started:.0f} s")
@@ -175,6 +175,14 @@ def create_venv() -> None:
     read_paths_as_utf8()
     PYTHON_RECORD.write_text(python)
     stamp.write_text(wanted)
+
+
+def pip_environment() -> dict[str, str]:
+    """The variables that pip gets: those of the user, but for what would keep a wheel out of our environment."""
+    # What is on PYTHONPATH counts as installed for pip, but our programs have a path of their own.
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    # A `user = true` in the user's pip.conf is refused in a virtual environment.
+    return {**kept, "PIP_USER": "0", "PYTHONDONTWRITEBYTECODE": ""}
 
 
 def site_packages() -> Path:

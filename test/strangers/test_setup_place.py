@@ -188,6 +188,40 @@ def test_what_is_up_to_date_is_not_written_again(
         bootstrap.write_environment()
 
 
+def test_wheels_are_installed_whatever_the_user_has_on_his_path(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Neither found on PYTHONPATH and so left out, nor refused for a `user = true` in pip.conf."""
+    name = "of_a_user"
+    own, wheels = tmp_path / "own", tmp_path / "wheels"
+    for folder in (own, wheels / name):
+        (folder / f"{name}-1.0.dist-info").mkdir(parents=True)
+        (folder / f"{name}-1.0.dist-info" / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+        (folder / f"{name}.py").touch()
+    info = wheels / name / f"{name}-1.0.dist-info"
+    (info / "WHEEL").write_text("Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
+    (info / "RECORD").touch()
+    archive = shutil.make_archive(str(wheels / "archive"), "zip", wheels / name)
+    Path(archive).rename(wheels / f"{name}-1.0-py3-none-any.whl")
+    lock = tmp_path / "requirements.lock"
+    lock.write_text(f"{name}==1.0\n")
+    for variable, value in {
+        "PYTHONPATH": str(own),
+        "PIP_USER": "1",
+        "PIP_NO_INDEX": "1",
+        "PIP_FIND_LINKS": str(wheels),
+    }.items():
+        monkeypatch.setenv(variable, value)
+    monkeypatch.setattr(bootstrap, "LOCK", lock)
+    monkeypatch.setattr(bootstrap, "STATE", tmp_path)
+    for folder in ("VENV", "BUILD", "INSTALL"):
+        monkeypatch.setattr(bootstrap, folder, tmp_path / folder.lower())
+    monkeypatch.setattr(bootstrap, "PYTHON_RECORD", tmp_path / "python")
+    monkeypatch.setattr(bootstrap, "read_paths_as_utf8", lambda: None)
+    bootstrap.create_venv()
+    assert (bootstrap.site_packages() / f"{name}.py").is_file()
+
+
 def test_nothing_is_removed_under_what_runs(tmp_path: Path) -> None:
     shutil.copy(BOOTSTRAP.parent.parent / "Makefile", tmp_path)
     library = tmp_path / ".acts" / "library"
