@@ -46,8 +46,12 @@ lint:
 format:
 	@./acts run python3 scripts/check.py --format
 
-# What is running would go on without its files, and not come again after a crash.
+# What is running would go on without its files, and not come again after a crash; a set-up would take what it has
+# installed so far for whole.
 clean:
+	@for lock in .acts/lock .acts/*/lock; do \
+	if [ -f "$$lock" ] && ! flock --nonblock "$$lock" true; then \
+	echo "not cleaned: a set-up of this checkout is under way, wait for it" >&2; exit 1; fi; done
 	@running=$$(grep -Fsl "$(CURDIR)/.acts/" /proc/[0-9]*/maps | tr -dc '0-9\n' | tr '\n' ' '); \
 	if [ -n "$$running" ]; then echo "not cleaned: end what runs from here first (ps $$running)" >&2; exit 1; fi
 	rm -rf .acts build install log out acts_*/build acts_*/*.egg-info .mypy_cache .ruff_cache .pytest_cache

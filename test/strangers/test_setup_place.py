@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import importlib.util
 import mmap
 import os
@@ -220,6 +221,21 @@ def test_wheels_are_installed_whatever_the_user_has_on_his_path(
     monkeypatch.setattr(bootstrap, "read_paths_as_utf8", lambda: None)
     bootstrap.create_venv()
     assert (bootstrap.site_packages() / f"{name}.py").is_file()
+
+
+@pytest.mark.parametrize("state", [".acts", ".acts/jazzy"])
+def test_nothing_is_removed_under_a_set_up(tmp_path: Path, state: str) -> None:
+    shutil.copy(BOOTSTRAP.parent.parent / "Makefile", tmp_path)
+    (tmp_path / state / "venv").mkdir(parents=True)
+    clean = ["make", "-C", str(tmp_path), "clean"]
+    with (tmp_path / state / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        refused = subprocess.run(clean, capture_output=True, text=True, timeout=30)
+    assert refused.returncode != 0
+    assert "not cleaned: a set-up of this checkout is under way, wait for it" in refused.stderr
+    assert (tmp_path / state / "venv").is_dir()
+    assert subprocess.run(clean, capture_output=True, text=True, timeout=30).returncode == 0
+    assert not (tmp_path / ".acts").exists()
 
 
 def test_nothing_is_removed_under_what_runs(tmp_path: Path) -> None:
