@@ -14,15 +14,22 @@ _DOMAIN_IDS = range(215, 232)
 
 
 def use_free_domain() -> None:
-    """Set ``ROS_DOMAIN_ID`` for this process and its children, unless it is set.
+    """Set ``ROS_DOMAIN_ID`` for this process and its children, unless it is set. An empty one is none, as to ROS.
 
     Raises
     ------
     LaunchError
         When none is free.
+    SettingsError
+        When the one that is set is no domain.
     """
-    if "ROS_DOMAIN_ID" not in os.environ:
+    if not os.environ.get("ROS_DOMAIN_ID"):
         os.environ["ROS_DOMAIN_ID"] = str(free_domain_id())
+        return
+    # Imported here: it imports rclpy, which is slow, and only who has set one needs it.
+    from acts_ros.middleware import check_domain
+
+    check_domain(os.environ)
 
 
 def free_domain_id() -> int:
