@@ -5,10 +5,15 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from acts_core.sampling import SkinMap
+from acts_core.skin import layout
 from acts_tools.cli import main
+from acts_tools.evaluate.slip import slip_sampled_command
+from acts_tools.firmware.board_sampler import BoardSampler
 
 pytestmark = pytest.mark.slow
 
@@ -40,3 +45,17 @@ def test_limits_can_be_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
 def test_a_skin_of_which_the_node_tells_no_slip_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "slip-sampled", "--layout", "square", "--seeds", "1"]) != 0
     assert "--layout square: the reconstruction tells no slip" in capsys.readouterr().err
+
+
+def test_the_sampling_knows_how_the_taxels_lie_on_the_skin(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a board that its driver has told; else it would follow a contact over the border of a patch."""
+    maps: list[SkinMap | None] = []
+
+    def sampler(*given: Any, **named: Any) -> BoardSampler:
+        maps.append(named.get("skin_map"))
+        return BoardSampler(*given, **named)
+
+    monkeypatch.setattr(slip_sampled_command, "BoardSampler", sampler)
+    words = ["--layout", "leap_right", "--m", "128", "--seeds", "1", "--hold-s", "0"]
+    assert main(["evaluate", "slip-sampled", *words]) == 0
+    assert set(maps) == {SkinMap.of(layout("leap_right"))}

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import SettingsError
-from acts_core.sampling import SamplingConfig
+from acts_core.sampling import SamplingConfig, SkinMap
 from acts_core.skin import Layout, SkinPatch, layout
 from acts_recon.fusion import known_noise
 from acts_recon.settings import ReconstructionSettings
@@ -129,7 +129,8 @@ def told(
 ) -> list[tuple[float, int]]:
     """Time [s] and patch of every start of slip."""
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
-    sampler = BoardSampler(config, _NOISE_COUNTS)
+    # A driver tells its board how the taxels lie on the skin.
+    sampler = BoardSampler(config, _NOISE_COUNTS, skin_map=None if skin.is_matrix else SkinMap.of(skin))
     settings = ReconstructionSettings(layout=skin.name, noise_counts=known_noise(_NOISE_COUNTS), **asdict(slip))
     recovery = settings.recovery()
     regions = settings.regions(recovery)
