@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import sys
-from pathlib import Path
 from types import FrameType
 
 from acts_tools import INTERRUPTED
@@ -41,12 +39,13 @@ def run() -> int:
                 signal.signal(number, interrupt)
         # Who started this may have kept it back until now, as acts_tools/bin/acts does.
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _USUAL)
+        from acts_ros.executables.streams import open_streams
+
+        # That nobody reads what is told is no error.
+        open_streams()
         from acts_tools.cli import main
 
-        with Path(os.devnull).open("w") as nobody:
-            # None where who started this has closed them: that nobody reads what is told is no error.
-            sys.stdout, sys.stderr = sys.stdout or nobody, sys.stderr or nobody
-            return main()
+        return main()
     except KeyboardInterrupt:
         return INTERRUPTED
     except Exception:

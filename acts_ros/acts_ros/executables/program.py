@@ -19,6 +19,7 @@ from acts_ros.executables.missing_packages import advice_about
 from acts_ros.executables.refused import stay, take_stay_word
 from acts_ros.executables.shared_memory import check_shared_memory
 from acts_ros.executables.standby import PREPARE_AFTER_S, Standby, say_ready, take_standby_word
+from acts_ros.executables.streams import open_streams
 
 
 class Program:
@@ -38,6 +39,7 @@ class Program:
 
     def __call__(self) -> int:
         """Run the program and return its exit code."""
+        open_streams()
         stays = take_stay_word(sys.argv)
         code = self._run(take_standby_word(sys.argv))
         if code == REFUSED_EXIT_CODE and stays:

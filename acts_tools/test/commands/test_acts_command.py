@@ -161,6 +161,17 @@ def test_a_command_works_where_nobody_listens(closed: str, tmp_path: Path) -> No
     assert subprocess.run(["sh", "-c", gait], cwd=tmp_path, check=False, capture_output=True).returncode == 0
 
 
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_what_a_command_opens_does_not_take_the_place_of_a_closed_stream(closed: str, tmp_path: Path) -> None:
+    """A bag would get what libraries in C write to the error stream."""
+    opened = (
+        "import sys\nfrom acts_tools import __main__, cli\n"
+        "cli.main = lambda: open('told.txt', 'w').write(str(open('told.txt').fileno()))\n__main__.run()\n"
+    )
+    subprocess.run(["sh", "-c", f'"{sys.executable}" -c "{opened}" {closed}'], cwd=tmp_path, check=True)
+    assert int((tmp_path / "told.txt").read_text()) > 2
+
+
 def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["launch", "--own", "/no/such.launch.xml"]) == 1
     assert capsys.readouterr().err == "error: the launch file '/no/such.launch.xml' does not exist\n"
