@@ -210,8 +210,20 @@ class FolderReader(DirectoryReader):
         """Whether each message is compressed by zstd, and given as it is."""
 
     def open(self) -> None:
-        """Open all files."""
+        """Open all files.
+
+        Raises
+        ------
+        ReaderError
+            ``metadata.yaml`` holds something else than rosbag2 writes, which rosbags would pass on.
+        """
         super().open()
+        # Nobody reads it, but it is cleared at the end.
+        self.files = []
+        for one in self.connections:
+            if not (isinstance(one.topic, str) and isinstance(one.msgtype, str) and type(one.msgcount) is int):
+                self.close()
+                raise ReaderError(f"metadata.yaml describes the topic {one.topic!r:.40} wrongly")
         self.packs_messages = self.metadata.compression_mode == "message"
 
     def messages(

@@ -206,6 +206,36 @@ def test_all_files_of_a_recorder_that_was_killed_are_read_in_their_order(plugin:
     assert f"not read: killed_12.{suffix}" in note
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("message_count: 3\n    topic_metadata", "message_count:\n    topic_metadata"),
+        ("name: /word", "name: [/word]"),
+        (f"type: {TYPE}", "type:"),
+    ],
+)
+def test_a_description_of_a_topic_that_makes_no_sense_is_as_good_as_none(
+    tmp_path: Path, change: tuple[str, str]
+) -> None:
+    path = write(tmp_path / "bag", [1, 2, 3])
+    metadata = path / "metadata.yaml"
+    assert change[0] in metadata.read_text()
+    metadata.write_text(metadata.read_text().replace(*change))
+    messages, note = read(path)
+    assert [stamp_ns for stamp_ns, _ in messages] == [1, 2, 3]
+    assert note is not None
+    assert "metadata.yaml describes the topic" in note
+
+
+def test_a_list_of_files_that_is_none_is_passed_over(tmp_path: Path) -> None:
+    path = write(tmp_path / "bag", [1, 2, 3])
+    metadata = path / "metadata.yaml"
+    changed, count = re.subn(r"  files:\n.*?(?=\n  \w)", "  files: some", metadata.read_text(), flags=re.DOTALL)
+    assert count == 1
+    metadata.write_text(changed)
+    assert len(read(path)[0]) == 3
+
+
 def test_a_version_that_is_not_known_is_read_like_a_bag_without_metadata(tmp_path: Path) -> None:
     path = write(tmp_path / "bag", [1, 2])
     metadata = path / "metadata.yaml"
