@@ -24,6 +24,7 @@ import sys
 import sysconfig
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
@@ -143,7 +144,10 @@ def base_python() -> str:
 
 def hand_over_to_recorded_python() -> None:
     """Go on in the interpreter the environment was made with, whichever `python3` is first on PATH today."""
-    recorded = PYTHON_RECORD.read_text() if PYTHON_RECORD.is_file() else ""
+    recorded = ""
+    # There is none yet, or it may not be read in a checkout of another user, which `open_lock` tells.
+    with suppress(OSError):
+        recorded = PYTHON_RECORD.read_text()
     if recorded and recorded != base_python() and os.access(recorded, os.X_OK):
         os.execv(recorded, [recorded, __file__, *sys.argv[1:]])
 
@@ -379,11 +383,8 @@ def main() -> int:
         print(f"[setup] {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(
-            f"[setup] {error.filename or STATE}: {error.strerror}; when that is mended, the same command does what is "
-            "not finished",
-            file=sys.stderr,
-        )
+        where = error.filename or STATE
+        print(f"[setup] {where}: {error.strerror}; the same command then does what is not finished", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("[setup] interrupted; the same command does again what is not finished", file=sys.stderr)

@@ -70,6 +70,14 @@ def test_a_checkout_that_cannot_be_written_is_said(
     assert advice in done.stderr
 
 
+def test_a_checkout_whose_folder_may_not_be_entered_is_not_told_by_a_traceback(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Refused by the system for root, too.
+    monkeypatch.setattr(bootstrap, "PYTHON_RECORD", tmp_path / (300 * "n"))
+    bootstrap.hand_over_to_recorded_python()
+
+
 def test_run_without_a_program_says_what_it_is_for() -> None:
     done = subprocess.run([str(BOOTSTRAP.parents[1] / "acts"), "run"], capture_output=True, text=True, timeout=30)
     assert done.returncode == 2
@@ -172,7 +180,7 @@ def test_a_full_disk_is_told_in_one_line(
     monkeypatch.setattr(bootstrap, "check_machine", lambda: None)
     monkeypatch.setattr(bootstrap, "create_venv", full)
     assert bootstrap.main() == 1
-    assert capsys.readouterr().err.startswith(f"[setup] {tmp_path}: No space left on device; when that is mended, ")
+    assert capsys.readouterr().err.startswith(f"[setup] {tmp_path}: No space left on device; the same command then ")
 
 
 def test_what_is_up_to_date_is_not_written_again(
