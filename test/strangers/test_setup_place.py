@@ -205,7 +205,9 @@ def test_wheels_are_installed_whatever_the_user_has_on_his_path(
     own, wheels = tmp_path / "own", tmp_path / "wheels"
     for folder in (own, wheels / name):
         (folder / f"{name}-1.0.dist-info").mkdir(parents=True)
-        (folder / f"{name}-1.0.dist-info" / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+        (folder / f"{name}-1.0.dist-info" / "METADATA").write_text(
+            f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n"
+        )
         (folder / f"{name}.py").touch()
     info = wheels / name / f"{name}-1.0.dist-info"
     (info / "WHEEL").write_text("Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
