@@ -225,8 +225,8 @@ def test_wheels_are_installed_whatever_the_user_has_on_his_path(
         monkeypatch.setenv(variable, value)
     monkeypatch.setattr(bootstrap, "LOCK", lock)
     monkeypatch.setattr(bootstrap, "STATE", tmp_path)
-    for folder in ("VENV", "BUILD", "INSTALL"):
-        monkeypatch.setattr(bootstrap, folder, tmp_path / folder.lower())
+    for part in ("VENV", "BUILD", "INSTALL"):
+        monkeypatch.setattr(bootstrap, part, tmp_path / part.lower())
     monkeypatch.setattr(bootstrap, "PYTHON_RECORD", tmp_path / "python")
     monkeypatch.setattr(bootstrap, "read_paths_as_utf8", lambda: None)
     bootstrap.create_venv()

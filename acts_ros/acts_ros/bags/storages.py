@@ -219,7 +219,7 @@ class FolderReader(DirectoryReader):
         """
         super().open()
         # Nobody reads it, but it is cleared at the end.
-        self.files = []
+        self.files: list[Any] = []
         for one in self.connections:
             if not (isinstance(one.topic, str) and isinstance(one.msgtype, str) and type(one.msgcount) is int):
                 self.close()
