@@ -50,7 +50,7 @@ format:
 # installed so far for whole.
 clean:
 	@for lock in .acts/lock .acts/*/lock; do \
-	if [ -f "$$lock" ] && ! flock --nonblock "$$lock" true; then \
+	if [ -f "$$lock" ] && ! flock -n "$$lock" true; then \
 	echo "not cleaned: a set-up of this checkout is under way, wait for it" >&2; exit 1; fi; done
 	@running=$$(grep -Fsl "$(CURDIR)/.acts/" /proc/[0-9]*/maps | tr -dc '0-9\n' | tr '\n' ' '); \
 	if [ -n "$$running" ]; then echo "not cleaned: end what runs from here first (ps $$running)" >&2; exit 1; fi
