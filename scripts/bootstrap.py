@@ -287,7 +287,8 @@ def build_workspace() -> None:
     stamp.unlink(missing_ok=True)
     say(f"colcon build of {len(packages())} packages (half a minute)")
     started = time.monotonic()
-    env = {**os.environ, **environment()}
+    # Not as the user's own workspaces: ~/.colcon/defaults.yaml may choose packages, or where they go.
+    env = {**os.environ, **environment(), "COLCON_DEFAULTS_FILE": os.devnull}
     env["PATH"] = f"{environment()['PATH']}:{os.environ['PATH']}"
     run(
         [

@@ -155,6 +155,22 @@ def test_a_change_of_the_set_up_itself_asks_for_a_build(
     assert built == ["one", "two"]
 
 
+def test_the_build_is_not_that_of_the_users_own_workspaces(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "acts.stamp").touch()
+    (tmp_path / "defaults.yaml").write_text("build: {packages-select: [mine]}\n")
+    monkeypatch.setenv("COLCON_HOME", str(tmp_path))
+    given: list[dict[str, str]] = []
+    for name in ("ROOT", "STATE", "VENV"):
+        monkeypatch.setattr(bootstrap, name, tmp_path)
+    monkeypatch.setattr(bootstrap, "run", lambda *_, env: given.append(env))
+    monkeypatch.setattr(bootstrap, "write_first_lines", lambda: None)
+    bootstrap.build_workspace()
+    # What colcon would read in place of that in its home.
+    assert not Path(given[0]["COLCON_DEFAULTS_FILE"]).is_file()
+
+
 def test_without_network_the_last_line_speaks_of_it(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
