@@ -216,8 +216,12 @@ class Launcher:
                 preexec_fn=leave_with_parent(os.getpid()),
             )
         except (OSError, subprocess.SubprocessError) as error:
-            child.failure = f"could not be started: {error}"
             self._console.say("ERROR", child.process.label, f"exception occurred while executing process: {error}")
+            if child.process.respawn and child.started_s:
+                # It could be started before: the memory is full for a moment, or its file is being built anew.
+                child.restart_at_s = time.monotonic() + child.wait.next_s(0.0)
+            else:
+                child.failure = f"could not be started: {error}"
             return
         child.started_s = time.monotonic()
         self._groups.add(child.popen.pid)

@@ -216,6 +216,18 @@ def test_what_refuses_what_it_was_given_is_not_started_again_and_may_leave_the_o
     assert "other died" not in output
 
 
+def test_what_cannot_be_started_again_for_a_moment_is_tried_again(tmp_path: Path) -> None:
+    """As while its file is being built anew: here by itself, and it is put right once that was noticed."""
+    program = tmp_path / "it"
+    program.write_text("#!/bin/sh\ncd ${0%/*}\n[ -e before ] && exit 2\ntouch before\nchmod -x it\n")
+    program.chmod(0o755)
+    mend = f"cd {tmp_path}; until grep -q 'exception occurred' launch.log; do sleep 0.02; done; chmod +x it"
+    processes = [Process("it", (str(program),), dict(os.environ), "log", True, 0.01), shell(mend)]
+    assert Launcher(Console(tmp_path, io.StringIO())).run(processes) == 1
+    # Of the second time.
+    assert "it refuses what it was given" in (tmp_path / "launch.log").read_text()
+
+
 def shell(script: str, *, respawn: bool = False) -> Process:
     return Process("it", ("/bin/sh", "-c", script), dict(os.environ), "screen", respawn, 0.01)
 
