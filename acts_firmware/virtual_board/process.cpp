@@ -23,6 +23,8 @@ namespace {
 // if it had not stood still: a board of its own does not, where a busy host's core does. The ring holds more than this.
 constexpr std::int64_t kCatchUpNs = std::int64_t{FramePacer::kCatchUpUs} * 1000;
 constexpr std::int64_t kNapNs = 50'000'000;  // the terminal is looked after at least this often
+// And this often while a packet waits for room there: the largest is twice what a terminal takes at once.
+constexpr std::int64_t kSendingNapNs = 1'000'000;
 
 // A terminal's Ctrl-C and `ros2 launch` signal all processes together. The host is to close its port before the board
 // is gone, and `ros2 launch` reports code 255 for a process that ends while it sends a signal itself.
@@ -185,8 +187,9 @@ bool Process::wait_for_frame() {
     if (now >= wake_ns) {
       return true;
     }
-    sleep_until(std::min(wake_ns, now + kNapNs));
-    if (now + kNapNs < wake_ns) {
+    const std::int64_t nap_ns = link_.has_rest() ? kSendingNapNs : kNapNs;
+    sleep_until(std::min(wake_ns, now + nap_ns));
+    if (now + nap_ns < wake_ns) {
       print_status_if_due(now_ns(CLOCK_MONOTONIC));
       serve_terminal();
       send();

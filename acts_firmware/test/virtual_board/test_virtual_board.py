@@ -6,12 +6,14 @@
 import os
 import signal
 import subprocess
+from collections import Counter
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from board_process import BoardProcess
+from board_process import DEADLINE_S, BoardProcess
 from core_library import installed
+from waiting import wait_for
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import OWN_SETTINGS, SCHEME_NUMBERS
@@ -104,6 +106,23 @@ def test_a_port_that_is_not_read_drops_whole_frames_and_says_how_many(tmp_path: 
         assert frames[-1].overruns >= 20
         assert board.decoder.malformed == board.decoder.crc_errors == 0
         check_stream(frames)
+
+
+def test_what_a_terminal_has_no_room_for_is_sent_within_a_pause_between_two_frames(tmp_path: Path) -> None:
+    size = ("--rows", 64, "--cols", 64, "--scheme", "raster", "--sample-us", 0.5)
+    with BoardProcess(tmp_path, *size, "--rate-hz", 2, "--status-period-s", 0.001) as board:
+        board.open_port()
+        # It looks after the terminal so often in a pause; every 50 ms would be ten times.
+        looks: Counter[int] = Counter()
+        wait_for(
+            lambda: max(looks.values(), default=0) > 50,
+            "a board that tries again",
+            DEADLINE_S,
+            lambda: looks.update([board.status()["frames"]]),
+            lambda: looks,
+        )
+        board.read_frames(2)
+    assert board.decoder.malformed == board.decoder.crc_errors == 0
 
 
 @pytest.mark.parametrize(("stall_s", "skips"), [(0.12, False), (0.8, True)])

@@ -32,6 +32,9 @@ class FaultyLink {
   // Sends what the terminal takes. Returns a fault that cuts the stream now: the caller carries it out.
   std::optional<Fault> send(TransmitQueue& output, PseudoTerminal& terminal, std::int64_t monotonic_ns);
 
+  // Whether the terminal had no room for all of a packet.
+  bool has_rest() const { return sent_ < packet_.size(); }
+
   // An armed fault that cuts the stream, for a stream that nobody reads.
   std::optional<Fault> take_cut();
 
