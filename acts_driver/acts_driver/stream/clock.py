@@ -58,7 +58,7 @@ class ClockFilter:
     it. A jump of either clock starts the estimate anew. This is at once where the board's clock jumps forwards,
     where the host's jumps backwards, and where `host_was_set` tells of it. Other jumps look like a stall in transport:
     these count after two seconds without a backlog. A host that is too slow reads its backlog in large pieces, and
-    what it reads is as old as it looks.
+    what it reads is as old as it looks. A first frame that was read late is no jump.
 
     Attributes
     ----------
@@ -73,6 +73,8 @@ class ClockFilter:
         self._origin_board_ns = 0
         self._origin_delay_ns = 0
         self._late_since_ns: int | None = None
+        # Whether the estimate rests on one read alone, which may have come late.
+        self._is_first = False
         self.delay_ns = 0
         self._last_board_us = 0
         self._last_arrival_ns = 0
@@ -83,7 +85,7 @@ class ClockFilter:
         """Present estimate."""
         envelope = self._envelope
         if envelope is None:
-            return ClockFilterState()
+            return ClockFilterState(resets=self._resets)
         x = self._last_board_us * 1000 - self._origin_board_ns
         return ClockFilterState(
             offset_us=(self._origin_delay_ns + envelope.at(x)) // 1000,
@@ -170,8 +172,9 @@ class ClockFilter:
                 return self._envelope
         height_ns = self._envelope.observe(x_ns, y_ns)
         self.delay_ns = height_ns if height_ns > 0 else 0
+        is_first, self._is_first = self._is_first, False
         if height_ns < -_JUMP_NS:
-            return self._restart(board_us, arrival_ns)
+            return self._start(board_us, arrival_ns) if is_first else self._restart(board_us, arrival_ns)
         if height_ns <= _JUMP_NS:
             self._late_since_ns = None
         elif self._late_since_ns is None:
@@ -184,6 +187,7 @@ class ClockFilter:
         self._origin_board_ns = board_us * 1000
         self._origin_delay_ns = arrival_ns - self._origin_board_ns
         self._late_since_ns = None
+        self._is_first = True
         self.delay_ns = 0
         self._envelope = LowerEnvelope(_WINDOW_NS, _DRIFT_FROM_NS, DRIFT_MAX, (0, 0))
         return self._envelope

@@ -95,6 +95,23 @@ def test_the_boards_clock_jumps_forward() -> None:
     assert clock.state.resets == 1
 
 
+@pytest.mark.parametrize("begins_anew", [False, True])
+def test_a_first_frame_that_is_read_late_is_no_jump(begins_anew: bool) -> None:
+    # Of a slow board: the frames of a fast one would have come together with the next.
+    clock = ClockFilter()
+    if begins_anew:
+        clock.step(0, EPOCH_NS)
+        clock.host_was_set()
+    before = clock.state.resets
+    clock.step(1_000_000, EPOCH_NS + 1200 * MS)
+    assert clock.step(2_000_000, EPOCH_NS + 2000 * MS) == EPOCH_NS + 2000 * MS
+    assert clock.step(3_000_000, EPOCH_NS + 3100 * MS) == EPOCH_NS + 3000 * MS
+    assert clock.state.resets == before
+    # The next one is.
+    assert clock.step(5_000_000, EPOCH_NS + 4000 * MS) == EPOCH_NS + 4000 * MS
+    assert clock.state.resets == before + 1
+
+
 def test_the_hosts_clock_is_set_back() -> None:
     clock, board_us, arrival_ns = settled()
     assert clock.step(board_us, arrival_ns - 3_600_000 * MS) == arrival_ns - 3_600_000 * MS
