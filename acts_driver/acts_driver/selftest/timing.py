@@ -60,20 +60,22 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
     """Timing of a record of two frames or more; `frame_period_us` is the board's rate cap, 0 for none or unknown."""
     frames = record.frames
     steps = np.mod(np.diff(np.array([frame.sequence for frame in frames], dtype=np.int64)), _SEQUENCE_MODULUS)
-    restarts = int((steps >= _RESTART_FROM).sum())
-    steps[steps >= _RESTART_FROM] = 1
+    # From one frame to the next of the same life: over a restart neither numbers nor clock go on.
+    goes_on = steps < _RESTART_FROM
+    restarts = int((~goes_on).sum())
+    steps[~goes_on] = 1
     lost = int((steps - 1).sum())
     arrivals_us = np.array(record.arrivals_ns, dtype=np.float64) / 1000
     board_us = np.array([frame.board_us for frame in frames], dtype=np.float64)
     duration_us = np.array([frame.duration_us for frame in frames], dtype=np.float64)
     sizes = np.array([len(frame.indices) for frame in frames])
     clock_us = board_us if has_board_clock else arrivals_us
-    beat_us = (clock_us[-1] - clock_us[0]) / max(int(steps.sum()), 1)
+    beat_us = float(np.diff(clock_us)[goes_on].sum()) / max(int(steps[goes_on].sum()), 1)
     possible_us = max(float(np.median(duration_us)), frame_period_us)
     jitter_us, drift_ppm, late_us = np.nan, np.nan, np.empty(0)
     if has_board_clock:
         begins_us = board_us - duration_us
-        off_us = np.diff(begins_us) - steps * beat_us
+        off_us = (np.diff(begins_us) - steps * beat_us)[goes_on]
         jitter_us = float(np.percentile(np.abs(off_us), 99)) if len(off_us) >= 10 else np.nan
         clock = ClockFilter()
         late = []

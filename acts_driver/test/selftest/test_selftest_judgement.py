@@ -280,6 +280,20 @@ def test_a_board_without_clock_and_durations_whose_numbers_begin_anew() -> None:
     assert faults(findings).keys() == {"frame numbers"}
 
 
+def test_a_restart_within_the_test_changes_neither_rate_nor_jitter() -> None:
+    record = Skin(shape=(16, 16)).record(1000, touched=False)
+    told = FrameRecord(16, 16)
+    began_us = record.frames[500].board_us - record.frames[500].duration_us
+    for k, (frame, arrival_ns) in enumerate(zip(record.frames, record.arrivals_ns, strict=True)):
+        # On for 1000 s before.
+        number, board_us = (100_000 + k, 10**9 + frame.board_us) if k < 500 else (k - 500, frame.board_us - began_us)
+        told.add(frame._replace(sequence=number, board_us=board_us), arrival_ns)
+    timing = measure_timing(told, has_board_clock=True)
+    assert (timing.lost, timing.restarts) == (0, 1)
+    assert timing.rate_hz == pytest.approx(1e6 / (256 * SAMPLE_US), rel=1e-3)
+    assert faults(judge_timing(timing, THRESHOLDS)).keys() == {"frame numbers"}
+
+
 def test_numbers_are_listed_for_a_person() -> None:
     assert listed((3,)) == "3"
     assert listed((3, 4, 7, 8, 9)) == "3, 4, 7 to 9"
