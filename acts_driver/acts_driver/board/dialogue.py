@@ -197,7 +197,9 @@ class BoardLink:
             # Not before this machine has seen that there is none: a busy one reads late.
             has_heard_all = self._catch_up(CATCH_UP_S)
             with self._arrived:
-                if self._reply is not None:
+                # The answer may be behind the frames that waited on the board until this machine read.
+                if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s):
+                    assert self._reply is not None
                     return self._reply
         if not has_heard_all:
             raise NotHeardError(

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from board_host import Host, LossyWay, SimpleBoard
+from board_host import PATIENT_S, Host, LossyWay, SimpleBoard
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pty_board import PtyBoard, wait_for
@@ -18,9 +18,9 @@ from virtual_board import VirtualBoard
 
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardModel, BoardSettings, object_library, patch_dictionary
+from acts_core.wire import BoardMessage, BoardModel, BoardSettings, object_library, patch_dictionary
 from acts_core.wire.board_models import ModelKind
-from acts_driver.board import NoAnswerError, NotHeardError, RefusedError
+from acts_driver.board import BoardLink, NoAnswerError, NotHeardError, RefusedError
 
 pytestmark = pytest.mark.slow
 
@@ -96,6 +96,24 @@ def test_an_answer_that_this_machine_reads_late_is_one(board: VirtualBoard) -> N
     host = BusyHost(board.link, gets_on=True)
     assert host.link.query().state.board_id == 77
     host.close()
+
+
+def test_an_answer_that_waits_on_the_board_until_this_machine_reads_is_one() -> None:
+    board = SimpleBoard()
+    waiting: list[BoardMessage] = []
+
+    def read_all(_timeout_s: float) -> bool:
+        # The board's queue is sent once there is room for it, behind what has just been read.
+        threading.Timer(0.05, lambda: link.receive(waiting[0])).start()
+        return True
+
+    link = BoardLink(
+        lambda data, _timeout_s: waiting.extend(board.receive(data)),
+        reply_timeout_s=PATIENT_S,
+        tries=1,
+        catch_up=read_all,
+    )
+    assert link.query().ok
 
 
 def test_a_machine_that_does_not_get_to_reading_says_so_of_itself(board: VirtualBoard) -> None:
