@@ -157,9 +157,7 @@ class BoardSession:
             As `BoardLink.query`.
         """
         with self._turn:
-            state = self._link.query().state
-            self._see(state)
-            return state
+            return self._query()
 
     def change(self, parameters: BoardParameters) -> None:
         """Change the parameters, and send the difference to the board.
@@ -192,8 +190,7 @@ class BoardSession:
             self._layout.read_again()
             self._wanted_model()
             if self.status.state is not None:
-                state = self._link.query().state
-                self._see(state)
+                state = self._query()
                 self._check_that_it_listens()
                 self._bring(state)
             if self._due is not None and self._due is not self._uploading:
@@ -229,7 +226,7 @@ class BoardSession:
     def _round(self) -> bool:
         """Query the board and send what differs; whether that succeeded, so that a model may be uploaded."""
         try:
-            state = self._link.query().state
+            state = self._query()
         except PortError as error:
             self._set(BoardStatus(problem=str(error)))
             return False
@@ -244,7 +241,6 @@ class BoardSession:
         except BoardError as error:
             self._set(BoardStatus(problem=str(error), is_wrong_version=True))
             return False
-        self._see(state)
         wanted = (self._parameters, self._own)
         if self.status.is_wrong_version or wanted == self._refused:
             return False
@@ -262,27 +258,33 @@ class BoardSession:
             return False
         return True
 
-    def _see(self, state: BoardState) -> None:
-        """Update the status by a state of the board."""
-        now_s = time.monotonic()
-        if self._has_begun_anew(state, now_s):
+    def _query(self) -> BoardState:
+        asked_s = time.monotonic()
+        state = self._link.query().state
+        self._see(state, asked_s)
+        return state
+
+    def _see(self, state: BoardState, asked_s: float) -> None:
+        """Update the status by a state that the board has told since it was asked, at `asked_s` [s]."""
+        if self._has_begun_anew(state, asked_s):
             self._own = state.settings
             self._layout.begin_anew()
             self._settled = None
             self._refused = None
-        self._seen, self._seen_s = state, now_s
+        self._seen, self._seen_s = state, time.monotonic()
         if state.firmware_version[:2] != FIRMWARE:
             self._set(BoardStatus(state, is_wrong_version=True, problem=_other_version(state)))
             return
         problem = self._refusal if self._refused is not None else self._mismatch(state)
         self._set(BoardStatus(state, problem=problem))
 
-    def _has_begun_anew(self, state: BoardState, now_s: float) -> bool:
+    def _has_begun_anew(self, state: BoardState, asked_s: float) -> bool:
         """Whether the board was replaced or reset since the last state, and so has lost its settings."""
         seen = self._seen
         if seen is None or seen.board_id != state.board_id or state.uptime_us < seen.uptime_us:
             return True
-        passed_s = now_s - self._seen_s
+        # At least: a busy machine reads answers late.
+        passed_s = asked_s - self._seen_s
         return passed_s - (state.uptime_us - seen.uptime_us) * 1e-6 > _SAME_START_S + _DRIFT_MAX * passed_s
 
     def _bring(self, state: BoardState) -> None:
@@ -305,7 +307,7 @@ class BoardSession:
         def is_wanted() -> bool:
             return self._due is model and self._opening == opening and not self._stop.is_set()
 
-        parameters = self._parameters
+        parameters, began_s = self._parameters, time.monotonic()
         wanted = (parameters, self._own)
         self._uploading = model
         try:
@@ -328,7 +330,7 @@ class BoardSession:
             self._log("info", f"the board has taken the model {parameters.model}")
             with self._turn:
                 self._due = None
-                self._see(reply.state)
+                self._see(reply.state, began_s)
 
     def _wanted_model(self) -> BoardModel | None:
         """The model that the parameters ask for, where there is one and it has been read."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,11 +19,13 @@ from virtual_board import VirtualBoard
 from acts_core.errors import BoardError, SettingsError
 from acts_core.sampling import SkinMap
 from acts_core.skin import layout
-from acts_core.wire import BoardMessage, BoardSettings, Reply
+from acts_core.wire import BoardMessage, BoardSettings, BoardState, Reply, ReplyStatus
 from acts_core.wire.board_models import ModelKind
+from acts_core.wire.commands import NO_MODEL
 from acts_core.wire.packets import PacketType
 from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus
 from acts_driver.board.model_file import load_model
+from acts_driver.board.session import FIRMWARE
 
 pytestmark = pytest.mark.slow
 
@@ -183,6 +186,39 @@ def test_a_board_that_resets_itself_behind_an_open_port_is_told_again(tmp_path: 
         session.change(BoardParameters())
         assert host.link.query().state.settings.scheme == "adaptive", "its own settings were not mistaken"
         host.close()
+
+
+class LateLink(BoardLink):
+    """A way to an imagined board whose answers are read some time after they were given [s], on a clock of its own."""
+
+    def __init__(self, settings: BoardSettings) -> None:
+        super().__init__(lambda data, timeout_s: None)
+        self.settings = settings
+        self.now_s, self.late_s = 100.0, 0.0
+
+    def query(self) -> Reply:
+        state = BoardState((*FIRMWARE, 0), 7, int(self.now_s * 1e6), self.settings, False, False, NO_MODEL, 0, 0, 0, 0)
+        self.now_s += self.late_s
+        return Reply(0, PacketType.QUERY, ReplyStatus.OK, 0, state)
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        self.settings = settings
+        return self.query()
+
+
+def test_an_answer_that_is_read_late_is_of_no_restarted_board(monkeypatch: pytest.MonkeyPatch) -> None:
+    link = LateLink(BoardSettings(m=55))
+    monkeypatch.setattr("acts_driver.board.session.time", SimpleNamespace(monotonic=lambda: link.now_s))
+    session = BoardSession(link, BoardParameters(), size=SIZE, log=lambda level, words: None)
+    session.ask()
+    session.change(BoardParameters(m=64))
+    link.now_s += 1.0
+    # As by a process that was stopped.
+    link.late_s = 5.0
+    assert session.ask().settings.m == 64
+    link.now_s, link.late_s = link.now_s + 1.0, 0.0
+    session.change(BoardParameters())
+    assert link.settings.m == 55, "its own settings were not mistaken"
 
 
 def test_packets_of_another_version_are_named(tmp_path: Path) -> None:
