@@ -63,6 +63,7 @@ class Intake:
     ) -> None:
         size = (settings.rows, settings.cols)
         self._size = size
+        self._source = source
         self._consume = consume
         self._log = log
         self._results = BoardResults()
@@ -132,7 +133,7 @@ class Intake:
         session = self.session
         if not self._stale_frames.is_over:
             frames = self._stale_frames.new(frames, is_known=session is None or session.has_verdict)
-        accepted = self.stream.accept(frames, arrival_ns)
+        accepted = self.stream.accept(frames, arrival_ns, self._source.waits)
         if self._backlog.lasts(arrival_ns, self.stream.clock.delay_ns):
             self.reader.discard()
             self.stream.statistics.discarded_unread()

@@ -10,7 +10,7 @@ is never negative and mostly short. So the offset is estimated by the line under
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from acts_driver.stream.envelope import LowerEnvelope
@@ -105,7 +105,14 @@ class ClockFilter:
         """Update by one frame; see `step_batch`."""
         return self.step_batch((board_us,), arrival_ns)[0]
 
-    def step_batch(self, board_us: Sequence[int], arrival_ns: int, *, restarted: bool = False) -> list[int]:
+    def step_batch(
+        self,
+        board_us: Sequence[int],
+        arrival_ns: int,
+        *,
+        restarted: bool = False,
+        is_behind: Callable[[], bool] = lambda: False,
+    ) -> list[int]:
         """Update by frames that arrived together, and return their stamps.
 
         Parameters
@@ -118,6 +125,8 @@ class ClockFilter:
         restarted : bool
             Whether the first of them is known to be of a board that was restarted, even where its clock is ahead of the
             last frame's.
+        is_behind : callable
+            Whether more frames wait to be read, where that is another sign of a backlog; asked of late frames only.
 
         Returns
         -------
@@ -134,13 +143,15 @@ class ClockFilter:
             # A board that restarts within a batch begins a batch of its own.
             if end == len(board_us) or board_us[end] < board_us[end - 1]:
                 anew = board_us[begin] < self._last_board_us or (restarted and begin == 0)
-                stamps += self._stamps(board_us[begin:end], arrival_ns, len(board_us) - begin, anew)
+                stamps += self._stamps(board_us[begin:end], arrival_ns, len(board_us) - begin, anew, is_behind)
                 begin = end
         return stamps
 
-    def _stamps(self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool) -> list[int]:
-        is_backlog = board_us[-1] - board_us[0] > _BACKLOG_US
-        envelope = self._observe(board_us[-1], arrival_ns, restarted, is_backlog)
+    def _stamps(
+        self, board_us: Sequence[int], arrival_ns: int, room: int, restarted: bool, is_behind: Callable[[], bool]
+    ) -> list[int]:
+        is_long = board_us[-1] - board_us[0] > _BACKLOG_US
+        envelope = self._observe(board_us[-1], arrival_ns, restarted, lambda: is_long or is_behind())
         self._last_board_us = board_us[-1]
         stamps = []
         last = self._last_stamp_ns
@@ -156,20 +167,21 @@ class ClockFilter:
         self._last_stamp_ns = last
         return stamps
 
-    def _observe(self, board_us: int, arrival_ns: int, restarted: bool, is_backlog: bool) -> LowerEnvelope:
+    def _observe(
+        self, board_us: int, arrival_ns: int, restarted: bool, is_backlog: Callable[[], bool]
+    ) -> LowerEnvelope:
         if self._envelope is None:
             return self._start(board_us, arrival_ns)
         if restarted:
             return self._restart(board_us, arrival_ns)
         x_ns = board_us * 1000 - self._origin_board_ns
         y_ns = arrival_ns - board_us * 1000 - self._origin_delay_ns
-        if is_backlog:
-            late_ns = y_ns - self._envelope.at(x_ns)
-            if late_ns > _JUMP_NS:
-                # Says nothing about the clocks, however long it lasts.
-                self.delay_ns = late_ns
-                self._late_since_ns = None
-                return self._envelope
+        late_ns = y_ns - self._envelope.at(x_ns)
+        if late_ns > _JUMP_NS and is_backlog():
+            # Says nothing about the clocks, however long it lasts.
+            self.delay_ns = late_ns
+            self._late_since_ns = None
+            return self._envelope
         height_ns = self._envelope.observe(x_ns, y_ns)
         self.delay_ns = height_ns if height_ns > 0 else 0
         is_first, self._is_first = self._is_first, False

@@ -5,12 +5,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from acts_core.frames import SampleFrame
 from acts_driver.stream.clock import ClockFilter
 from acts_driver.stream.host_clock import HostClock
 from acts_driver.stream.statistics import StreamStatistics
+
+# Frames of more taxels come one at a time, as a terminal hands over 4095 bytes.
+_LARGE_TAXELS = 512
 
 
 class FrameStream:
@@ -55,7 +58,9 @@ class FrameStream:
         if self.has_board_clock:
             self.statistics.reconnected()
 
-    def accept(self, frames: Sequence[SampleFrame], arrival_ns: int) -> list[tuple[SampleFrame, int]]:
+    def accept(
+        self, frames: Sequence[SampleFrame], arrival_ns: int, is_behind: Callable[[], bool] = lambda: False
+    ) -> list[tuple[SampleFrame, int]]:
         """Check and stamp frames that were read together; return those to publish.
 
         Parameters
@@ -64,6 +69,8 @@ class FrameStream:
             In order of arrival.
         arrival_ns : int
             When they were read, in ROS time [ns].
+        is_behind : callable
+            Whether more waits to be read.
 
         Returns
         -------
@@ -86,7 +93,10 @@ class FrameStream:
         if self.has_board_clock:
             if self._host_clock.was_set():
                 self.clock.host_was_set()
-            stamps = self.clock.step_batch(board_us, arrival_ns, restarted=restarted)
+            is_large = len(new[-1].indices) > _LARGE_TAXELS
+            stamps = self.clock.step_batch(
+                board_us, arrival_ns, restarted=restarted, is_behind=lambda: is_large and is_behind()
+            )
             statistics.stamped(stamps[-1])
         else:
             stamps = [arrival_ns - (len(new) - 1 - number) for number in range(len(new))]

@@ -3,6 +3,9 @@
 
 """The clock filter against a simulated way with known truth, and against jumps."""
 
+from functools import partial
+from operator import gt
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,8 +13,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from simulated_channel import EPOCH_NS, Channel, simulate
 
-from acts_driver.stream import ClockFilter
+from acts_core.frames import SampleFrame, Scheme
+from acts_driver.stream import ClockFilter, FrameStream
 from acts_driver.stream.envelope import hull_slope
+from acts_driver.stream.host_clock import HostClock
 
 pytestmark = pytest.mark.slow
 
@@ -147,6 +152,25 @@ def test_what_a_host_that_is_too_slow_reads_late_is_stamped_as_old_as_it_is() ->
         assert abs(stamps[-1] - (arrival_ns + (k + 15) * MS)) < 10 * MS
     assert late_ms == 0
     assert clock.state.resets == 0
+
+
+def test_large_frames_of_a_backlog_which_come_one_at_a_time_are_stamped_as_old_as_they_are() -> None:
+    stream = FrameStream(32, 32, host_clock=HostClock(lambda: EPOCH_NS, lambda: 0))
+    taxels = np.arange(1024, dtype=np.uint16)
+    for k in range(6000):
+        frame = SampleFrame(k, 2000 * k, 1900, Scheme.RASTER, 32, 32, 0, taxels, taxels)
+        # From the fourth second on the host is half a second late; what it has not read waits.
+        late_ms = 0 if k < 2000 else 500
+        arrival_ns = EPOCH_NS + (2 * k + late_ms) * MS
+        ((_, stamp_ns),) = stream.accept([frame], arrival_ns, partial(gt, late_ms, 0))
+        assert abs(stamp_ns - (EPOCH_NS + 2 * k * MS)) < 10 * MS
+    assert stream.clock.state.resets == 0
+    # Small ones would come many at a time: one that is followed by another is no backlog.
+    small = FrameStream(32, 32, host_clock=HostClock(lambda: EPOCH_NS, lambda: 0))
+    for k in range(6000):
+        frame = SampleFrame(k, 2000 * k, 1900, Scheme.ADAPTIVE, 32, 32, 0, taxels[:55], taxels[:55])
+        small.accept([frame], EPOCH_NS + (2 * k + (0 if k < 2000 else 500)) * MS, lambda: True)
+    assert small.clock.state.resets == 1
 
 
 def test_slope_of_the_lower_hull() -> None:
