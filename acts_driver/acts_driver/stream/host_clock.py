@@ -31,6 +31,10 @@ class HostClock:
         self._steady_ns = steady_ns
         self._difference_ns: int | None = None
 
+    def now_ns(self) -> int:
+        """Time of the system's clock [ns]."""
+        return self._system_ns()
+
     def was_set(self) -> bool:
         """Whether the system's clock was set by more than 40 ms since the last call. Call it regularly."""
         before_ns = self._steady_ns()

@@ -93,6 +93,8 @@ class FrameStream:
         if self.has_board_clock:
             if self._host_clock.was_set():
                 self.clock.host_was_set()
+                # They may have been read just before that.
+                arrival_ns = self._host_clock.now_ns()
             is_large = len(new[-1].indices) > _LARGE_TAXELS
             stamps = self.clock.step_batch(
                 board_us, arrival_ns, restarted=restarted, is_behind=lambda: is_large and is_behind()

@@ -47,6 +47,22 @@ def test_stamps_follow_the_systems_clock_at_once(step_ms: int) -> None:
     assert stream.statistics.restarts == 0
 
 
+@pytest.mark.parametrize("step_ms", [-3_600_000, 60, 3_600_000])
+def test_a_clock_that_is_set_while_a_frame_is_decoded(step_ms: int) -> None:
+    clocks = Clocks()
+    stream = FrameStream(4, 4, host_clock=HostClock(lambda: clocks.system_ns, clocks.read_steady))
+    for k in range(3000):
+        arrival_ns = clocks.system_ns
+        if k == 2000:
+            clocks.system_ns += step_ms * MS
+        clocks.run(MS // 20)
+        frame = SampleFrame(k, 7_000_000 + 1000 * k, 0, Scheme.UNIFORM, 4, 4, 0, NONE, NONE)
+        [(_, stamp_ns)] = stream.accept([frame], arrival_ns)
+        assert abs(stamp_ns - clocks.system_ns) < MS // 10
+        clocks.run(MS - MS // 20)
+    assert stream.clock.state.resets == 1
+
+
 def test_a_clock_that_is_made_to_run_faster_was_not_set() -> None:
     clocks = Clocks()
     clock = HostClock(lambda: clocks.system_ns, clocks.read_steady)
