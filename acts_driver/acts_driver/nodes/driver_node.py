@@ -206,8 +206,11 @@ class DriverNode(LifecycleNode):
                 self._baseline.begin(settings, settings.rows, settings.cols)
         except ActsError as error:
             return str(error)
-        self._settings = settings
+        before, self._settings = self._what, settings
         self._next_source = None
+        if self._what != before:
+            # Why the other one could not be opened.
+            self._problem = ""
         self._diagnostics.hardware_id = self._what
         return ""
 

@@ -245,6 +245,10 @@ def test_without_autostart_a_missing_port_fails_the_configuration(tmp_path: Path
     assert rig.state() == "unconfigured"
     status = rig.status_until(lambda status: status["level"] == "2", "the report")
     assert "nothing is not there" in status["message"]
+    # Of another port nothing is known yet.
+    assert rig.set_parameters(port=str(tmp_path / "other")) == (True, "")
+    status = rig.status_until(lambda status: status["port"].endswith("other"), "the report on the other port")
+    assert (status["level"], status["message"]) == ("0", "unconfigured")
 
 
 def test_a_second_driver_on_the_port_is_told_who_holds_it(board: PtyBoard, rig: Rig) -> None:
