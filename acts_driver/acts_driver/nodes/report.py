@@ -102,6 +102,8 @@ class DriverReport:
         self._expected_size = expected_size
         self._before = Totals()
         self._pace = Pace()
+        # Words for it where all frames of the last report that had any were of a wrong size.
+        self._wrong_size = ""
 
     def totals(self) -> Totals:
         """Present counters."""
@@ -177,13 +179,16 @@ class DriverReport:
         if not self._reader.connected:
             return ERROR, self._reader.problem or f"{self._source.name} is closed"
         troubles = [counted(getattr(added, name), *words) for name, words in _TROUBLES.items() if getattr(added, name)]
+        if added.frames:
+            self._wrong_size = ""
         if added.wrong_size:
             given, expected = self._stream.wrong_size_last, self._expected_size
-            troubles.insert(
-                0,
+            words = (
                 f"{counted(added.wrong_size, 'frame')} of {given[0]} x {given[1]} taxels dropped, expected are "
-                f"{expected[0]} x {expected[1]} (parameters rows and cols)",
+                f"{expected[0]} x {expected[1]} (parameters rows and cols)"
             )
+            troubles.insert(0, words)
+            self._wrong_size = words if added.frames == added.wrong_size else ""
         if added.crc_errors or added.malformed:
             troubles.append(f"last: {self._decoder.last_error}")
         elif is_silent and added.bytes_discarded and self._decoder.last_error:
@@ -196,8 +201,9 @@ class DriverReport:
         if is_silent:
             why = f" ({self._source.silence})" if self._source.silence else ""
             return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])
-        if added.frames == added.wrong_size > 0:
-            return ERROR, ", ".join(troubles)
+        if self._wrong_size:
+            # Between two frames of a slow board it is as it was.
+            return ERROR, ", ".join(troubles if added.frames else [self._wrong_size, *troubles])
         if troubles:
             return WARN, ", ".join(troubles)
         return OK, fine

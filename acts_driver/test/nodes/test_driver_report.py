@@ -97,6 +97,24 @@ def test_a_slow_board_is_not_silent_between_two_frames() -> None:
     assert logged == []
 
 
+def test_a_slow_board_of_a_wrong_size_is_an_error_between_two_frames_too() -> None:
+    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
+    stream = FrameStream(32, 32)
+    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
+    reader.connected = True
+    report = DriverReport(source, reader, decoder, stream, (32, 32))
+    reports = []
+    for second in range(8):
+        rows = 32 if second == 7 else 16
+        frame = SampleFrame(second, 1_000_000 * second, 900, Scheme.RANDOM, rows, 32, 0, NO_TAXELS, NO_TAXELS)
+        stream.accept([frame], (1000 + 1000 * second) * MS)
+        for part_ms in (10, 510):
+            reports.append(report.make("active", (1000 + 1000 * second + part_ms) * MS)[:2])
+    words = "1 frame of 16 x 32 taxels dropped, expected are 32 x 32 (parameters rows and cols)"
+    assert set(reports[4:-2]) == {(ERROR, words)}
+    assert [level for level, _ in reports[-2:]] == [OK, OK]
+
+
 @pytest.mark.usefixtures("eager_threads")
 def test_a_report_amid_a_frame_knows_all_of_its_gap_or_nothing() -> None:
     source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
