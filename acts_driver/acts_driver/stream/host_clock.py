@@ -22,6 +22,11 @@ class HostClock:
     ----------
     system_ns, steady_ns : callable
         The clocks [ns].
+
+    Attributes
+    ----------
+    step_ns : int
+        By how much the system's clock was set when `was_set` last told so [ns].
     """
 
     def __init__(
@@ -30,6 +35,7 @@ class HostClock:
         self._system_ns = system_ns
         self._steady_ns = steady_ns
         self._difference_ns: int | None = None
+        self.step_ns = 0
 
     def now_ns(self) -> int:
         """Time of the system's clock [ns]."""
@@ -42,4 +48,7 @@ class HostClock:
         if self._steady_ns() - before_ns > _AT_ONCE_NS:
             return False
         last_ns, self._difference_ns = self._difference_ns, system_ns - before_ns
-        return last_ns is not None and abs(self._difference_ns - last_ns) > _STEP_NS
+        if last_ns is None or abs(self._difference_ns - last_ns) <= _STEP_NS:
+            return False
+        self.step_ns = self._difference_ns - last_ns
+        return True

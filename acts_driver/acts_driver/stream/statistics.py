@@ -117,6 +117,10 @@ class StreamStatistics:
         """
         self._measured_ns = stamp_ns
 
+    def host_was_set(self, step_ns: int) -> None:
+        """Tell that the clock of the arrivals was set, and by how much [ns]."""
+        self._measured_ns += step_ns
+
     def rate_hz(self, now_ns: int) -> float:
         """New frames per second of arrival, over the last second; takes `lock`."""
         now = now_ns // _BIN_NS

@@ -81,6 +81,11 @@ class FrameStream:
         new: list[SampleFrame] = []
         board_us: list[int] = []
         restarted = False
+        if self.has_board_clock and self._host_clock.was_set():
+            self.clock.host_was_set()
+            statistics.host_was_set(self._host_clock.step_ns)
+            # They may have been read just before that.
+            arrival_ns = self._host_clock.now_ns()
         with statistics.lock:
             for frame in frames:
                 restarts = statistics.restarts
@@ -91,10 +96,6 @@ class FrameStream:
         if not new:
             return []
         if self.has_board_clock:
-            if self._host_clock.was_set():
-                self.clock.host_was_set()
-                # They may have been read just before that.
-                arrival_ns = self._host_clock.now_ns()
             is_large = len(new[-1].indices) > _LARGE_TAXELS
             stamps = self.clock.step_batch(
                 board_us, arrival_ns, restarted=restarted, is_behind=lambda: is_large and is_behind()

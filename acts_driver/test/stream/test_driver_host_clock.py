@@ -63,6 +63,31 @@ def test_a_clock_that_is_set_while_a_frame_is_decoded(step_ms: int) -> None:
     assert stream.clock.state.resets == 1
 
 
+@pytest.mark.parametrize("step_ms", [-3_600_000, 60, 3_600_000])
+def test_a_clock_that_is_set_while_the_port_is_lost_makes_no_restart_of_the_board(step_ms: int) -> None:
+    clocks = Clocks()
+    stream = FrameStream(4, 4, host_clock=HostClock(lambda: clocks.system_ns, clocks.read_steady))
+
+    def accept(number: int, board_ms: int) -> None:
+        frame = SampleFrame(number, 1000 * board_ms, 0, Scheme.UNIFORM, 4, 4, 0, NONE, NONE)
+        stream.accept([frame], clocks.system_ns)
+        clocks.run(MS)
+
+    for number in range(1000):
+        accept(number, 7000 + number)
+    clocks.run(3000 * MS)
+    clocks.system_ns += step_ms * MS
+    stream.reconnected()
+    accept(4000, 11_000)
+    assert (stream.statistics.restarts, stream.statistics.lost) == (0, 3000)
+    # Off for a minute, and then on for longer than before.
+    clocks.run(80_000 * MS)
+    clocks.system_ns += step_ms * MS
+    stream.reconnected()
+    accept(5000, 20_000)
+    assert (stream.statistics.restarts, stream.statistics.lost) == (1, 3000)
+
+
 def test_a_clock_that_is_made_to_run_faster_was_not_set() -> None:
     clocks = Clocks()
     clock = HostClock(lambda: clocks.system_ns, clocks.read_steady)
