@@ -5,12 +5,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 from view_browser import expect, needs_browser
-from view_player import COL, ROW, Player
+from view_player import COL, ROW, Player, next_picture, pressed
 
 from acts_view.skin.snapshot import SkinShape
 
@@ -65,3 +68,26 @@ def test_a_mouse_that_leaves_points_at_nothing(play: Callable[..., Player], open
     expect(page.locator(".pointed")).to_contain_text("counts")
     page.hover("#pause")
     expect(page.locator(".pointed")).to_have_text("")
+
+
+def test_a_taxel_that_a_smaller_skin_does_not_have_is_pointed_at_no_longer(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    server = (player := play(())).server
+    server.show_shape("/plate", SkinShape())
+    name, frame, samples = pressed("/plate", time.time())
+    server.show_frame(name, frame, samples)
+    page = open_page(player, is_live=False)
+    # With a force of each taxel, that of none cannot be told.
+    page.keyboard.press("n")
+    pointed = page.locator(".pointed")
+    page.focus("canvas.marks")
+    for _ in range(10):
+        page.keyboard.press("ArrowDown")
+    expect(pointed).to_contain_text("row 25, column 16")
+    server.show_shape("/plate", SkinShape(rows=16, cols=16))
+    small = np.full((16, 16), 300, np.uint16)
+    server.show_frame(name, replace(frame, image=small, touch=(0.0, 0.0, 1.0, 300.0, 1e-5)), samples)
+    expect(page.locator("[data-number=peak]")).to_have_text("300")
+    next_picture(page)
+    assert pointed.inner_text() == ""

@@ -46,6 +46,8 @@ export class SkinView {
     this.element.style.aspectRatio = `${geometry.width_m} / ${geometry.height_m}`;
     // As wide as fits, but no higher than wide screens are.
     this.element.style.maxWidth = `calc(${Math.min(1, geometry.width_m / geometry.height_m)} * var(--picture-height))`;
+    // A smaller skin may not have the taxel that was pointed at.
+    if (this.pointed && (this.pointed.row >= shape.rows || this.pointed.col >= shape.cols)) this.#point(null);
     this.draw();
   }
 
