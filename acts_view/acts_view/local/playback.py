@@ -141,10 +141,11 @@ class Playback:
                 self._end(str(error))
                 continue
             if due:
-                self._hand_on(due)
+                self._on_frames(due)
             if self._coming is None:
                 self._end("")
             else:
+                self._tell_position(self._coming)
                 self._wait_a_turn()
 
     def _wait_while_held(self) -> None:
@@ -207,13 +208,10 @@ class Playback:
     def _place_us(self, frame: SampleFrame) -> int:
         return frame.board_us - (self._zero_us or 0)
 
-    def _hand_on(self, frames: list[SampleFrame]) -> None:
-        self._on_frames(frames)
-        self._set_position(self._place_us(frames[-1]))
-
-    def _set_position(self, position_us: int) -> None:
+    def _tell_position(self, coming: SampleFrame) -> None:
+        """Where time is: it passes also where the recording has a gap, and after a hold goes on from there."""
         with self._changed:
-            self._position_us = position_us
+            self._position_us = round(min(_now_us() - self._anchor_us, self._place_us(coming)))
 
     def _end(self, problem: str) -> None:
         with self._changed:

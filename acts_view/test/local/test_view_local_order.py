@@ -16,7 +16,7 @@ from test_view_codec import decode
 from view_recorded import DEADLINE_S, Counted, Shown
 from waiting import wait_for
 
-from acts_core.frames import SampleFrame
+from acts_core.frames import SampleFrame, Scheme
 from acts_view.local import show as show_module
 from acts_view.local.playback import Playback
 from acts_view.local.sources import LocalSource
@@ -102,3 +102,33 @@ def test_the_end_of_a_recording_is_told_after_its_last_frame(monkeypatch: pytest
     finally:
         shown.close()
     assert "frame" in [one["type"] for one in seen]
+
+
+class Paused(Counted):
+    """Ten frames, and another one a minute later."""
+
+    length_us = 60_000_000
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        empty = np.zeros(1, np.uint16)
+        for number, time_us in enumerate((*range(0, 10_000, 1000), self.length_us)):
+            if time_us >= from_us:
+                yield SampleFrame(number, time_us, 0, Scheme.RASTER, 32, 32, 0, empty, empty)
+
+
+def test_time_passes_in_a_gap_of_a_recording_and_goes_on_from_there_after_a_hold() -> None:
+    numbers: list[int] = []
+    playback = Playback(Paused(), lambda frames: numbers.extend(one.sequence for one in frames), lambda: None)
+    playback.start()
+    try:
+        wait_for(lambda: playback.state.position_s > 0.3, "time in the gap", state=lambda: playback.state)
+        assert numbers == list(range(10))
+        playback.pause()
+        held_s = playback.state.position_s
+        playback.play()
+        wait_for(lambda: playback.state.position_s > held_s + 0.1, "time after the hold", state=lambda: playback.state)
+        playback.seek(59.8)
+        wait_for(lambda: not playback.state.is_playing)
+        assert playback.state.position_s == pytest.approx(60.0)
+    finally:
+        playback.stop()
