@@ -25,10 +25,7 @@ export class Recording {
   show(recording) {
     this.element.hidden = !recording;
     if (!recording) return;
-    this.isOn = recording.on;
-    this.button.textContent = recording.on ? "Stop recording" : "Record";
-    // Of what is read out the words alone say it: "Stop recording, pressed" would say that it was stopped.
-    this.button.dataset.on = String(recording.on);
+    this.#showOn(recording.on);
     // What counts on by itself is not read out.
     this.line.setAttribute("aria-live", recording.on ? "off" : "polite");
     if (recording.on) {
@@ -44,8 +41,18 @@ export class Recording {
   }
 
   async #toggle() {
-    const { done, text } = await ask(this.isOn ? "stop_recording" : "record");
+    const { isOn } = this;
+    const { done, text } = await ask(isOn ? "stop_recording" : "record");
+    // The server tells it a while later; until then the next press would ask for the same again.
+    if (done) this.#showOn(!isOn);
     this.#tell(text, done);
+  }
+
+  #showOn(isOn) {
+    this.isOn = isOn;
+    this.button.textContent = isOn ? "Stop recording" : "Record";
+    // Of what is read out the words alone say it: "Stop recording, pressed" would say that it was stopped.
+    this.button.dataset.on = String(isOn);
   }
 
   #file(name, bytes) {

@@ -15,7 +15,9 @@ export class Replay {
     this.time = element.querySelector("output");
     this.answer = element.querySelector(".answer");
     this.moved_ms = -SETTLE_MS;
-    this.isPlaying = false;
+    this.isPlaying = false; // or is to be: what was asked for counts until the server tells
+    this.isToldPlaying = false;
+    this.asked = 0;
     this.button.onclick = () => this.toggle();
     this.slider.oninput = () => {
       this.moved_ms = performance.now();
@@ -38,9 +40,9 @@ export class Replay {
   show(replay) {
     this.element.hidden = !replay;
     if (!replay) return;
-    this.isPlaying = replay.playing;
+    this.isToldPlaying = replay.playing;
+    if (!this.asked) this.#showPlaying(replay.playing);
     this.element.querySelector(".name").textContent = replay.name;
-    this.button.textContent = replay.playing ? "Hold" : "Play";
     // Of whole steps: a slider stops at the last one that is not above its end.
     const step_s = Number(this.slider.step);
     this.slider.max = Math.ceil(replay.length_s / step_s) * step_s;
@@ -50,9 +52,19 @@ export class Replay {
     this.#tell(replay.position_s);
   }
 
-  /** Play or hold. */
+  /** Play or hold; twice in a row, however soon, is as before. */
   async toggle() {
-    this.#tellAnswer(await ask(this.isPlaying ? "pause" : "play"));
+    this.#showPlaying(!this.isPlaying);
+    this.asked += 1;
+    const answer = await ask(this.isPlaying ? "play" : "pause");
+    this.asked -= 1;
+    if (!answer.done && !this.asked) this.#showPlaying(this.isToldPlaying);
+    this.#tellAnswer(answer);
+  }
+
+  #showPlaying(isPlaying) {
+    this.isPlaying = isPlaying;
+    this.button.textContent = isPlaying ? "Hold" : "Play";
   }
 
   /** One seek at a time; the last one counts. */

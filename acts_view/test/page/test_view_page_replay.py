@@ -229,3 +229,22 @@ def test_what_is_refused_is_said_until_something_is_done(
         expect(answer).to_be_hidden()
     finally:
         shown.close()
+
+
+def test_what_is_pressed_twice_before_the_server_has_told_of_it_is_as_before(
+    tmp_path: Path, open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
+    asked: list[str] = []
+    act = source.do
+    monkeypatch.setattr(source, "do", lambda request: (asked.append(request.do), act(request))[1])
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        page.evaluate("() => { for (const _ of [1, 2]) document.querySelector('#replay button').click(); }")
+        wait_for(lambda: len(asked) == 2, "two requests", state=lambda: asked)
+        assert asked == ["pause", "play"]
+        expect(page.locator("#replay button")).to_have_text("Hold")
+        assert source.status()["replay"]["playing"]
+    finally:
+        shown.close()
