@@ -6,6 +6,7 @@
 import { socketUrl } from "./connection.js";
 
 const WHOLE = 1000; // how a socket is closed behind a file that is whole
+const SILENT_MS = 15000; // a server that sends nothing for so long is gone, as after this machine was asleep
 
 /** Pieces of a file, by a socket of its own, since that is where the server checks who asks; onSent(bytes) meanwhile. */
 export function fetchFile(path, onSent) {
@@ -14,14 +15,26 @@ export function fetchFile(path, onSent) {
   return new Promise((resolve, reject) => {
     const pieces = [];
     let sent = 0;
+    let watchdog = 0;
+    const fail = () => {
+      socket.close();
+      reject(new Error("the server did not send it to its end; try again"));
+    };
+    const heard = () => {
+      clearTimeout(watchdog);
+      watchdog = setTimeout(fail, SILENT_MS);
+    };
+    heard();
     socket.onmessage = ({ data }) => {
+      heard();
       pieces.push(data);
       sent += data.size;
       onSent(sent);
     };
     socket.onclose = ({ code }) => {
+      clearTimeout(watchdog);
       if (code === WHOLE) resolve(pieces);
-      else reject(new Error("the server did not send it to its end; try again"));
+      else fail();
     };
   });
 }

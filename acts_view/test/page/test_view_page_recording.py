@@ -6,16 +6,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
 
-from acts_view.web.server import READ_ONLY
+from acts_view.web.requests import Answer, Request
+from acts_view.web.server import READ_ONLY, ViewServer
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
+    from websockets.asyncio.server import ServerConnection
 
 pytestmark = [needs_browser, pytest.mark.slow]
 
@@ -59,3 +63,55 @@ def test_a_download_keeps_the_focus_where_another_file_comes_and_an_old_one_goes
     player.status["recording"] = {**off, "files": [["third", 0], ["second", 2_000_000]]}
     expect(page.locator("#recording .files")).to_contain_text("0.0 MB")
     expect(buttons.nth(1)).to_be_focused()
+
+
+def test_what_was_begun_is_ended_by_the_next_press_also_before_the_server_has_told_of_it(
+    open_page: Callable[..., Page],
+) -> None:
+    asked: list[str] = []
+
+    def do(request: Request, answer: Answer) -> None:
+        asked.append(request.do)
+        answer(True, f"done {len(asked)}")
+
+    server = ViewServer("127.0.0.1", 0, on_clients=lambda _: None, log=lambda *_: None, on_request=do)
+    try:
+        # It says nothing more.
+        server.show_status({"skins": [], "diagnostics": [], "recording": {"on": False, "note": "", "files": []}})
+        page = open_page(SimpleNamespace(url=server.address.url), is_live=False)
+        button, line = page.locator("#recording > .group > button"), page.locator("#recording .answer")
+        for number, words in enumerate(("Stop recording", "Record"), 1):
+            button.click()
+            expect(line).to_have_text(f"done {number}")
+            expect(button).to_have_text(words)
+        assert asked == ["record", "stop_recording"]
+    finally:
+        server.close()
+
+
+# The page waits for fifteen seconds.
+IMPATIENT = """
+const wait = window.setTimeout;
+window.setTimeout = (call, time_ms, ...given) => wait(call, time_ms === 15000 ? 300 : time_ms, ...given);
+"""
+
+
+def test_a_download_that_stands_still_is_given_up(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    player = play()
+    player.status["recording"] = {"on": False, "note": "", "files": [["touch.mcap", 2_000_000]]}
+
+    async def send_a_piece(connection: ServerConnection, _path: str) -> None:
+        await connection.send(bytes(1_000_000))
+        await connection.wait_closed()
+
+    monkeypatch.setattr(player.server, "_find_file", lambda _name: tmp_path)
+    monkeypatch.setattr(player.server, "_send_file", send_a_piece)
+    page = open_page(player)
+    page.add_init_script(IMPATIENT)
+    page.reload()
+    item = page.locator("#recording .files li")
+    item.locator("button").click()
+    expect(item).to_contain_text("did not send it to its end; try again")
+    expect(item.locator("button")).to_have_attribute("aria-disabled", "false")
