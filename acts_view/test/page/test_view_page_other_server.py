@@ -95,3 +95,14 @@ def test_of_a_hand_only_what_the_new_server_tells_stays(follow: Callable[..., tu
     expect(hand.locator("li .force")).to_have_text(["0.75 N"])
     expect(hand.locator(".joints dt")).to_have_text(["thumb tip", "thumb base"])
     expect(hand.locator(".joints dd")).to_have_text(["29", "14"])
+
+
+def test_what_a_node_has_said_can_be_opened_also_when_the_server_is_gone(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    page = open_page(player)
+    player.close()
+    page.wait_for_selector("#connection[data-state=gone]")
+    page.click("#diagnostics summary")
+    expect(page.locator("#diagnostics dl")).to_have_text("portauto")
