@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from acts_core.errors import SettingsError
+from acts_core.names import full_name
 from acts_core.skin import LAYOUTS
 from acts_core.stop_signals import StopSignals
 from acts_tools.arguments import refuse_unused
@@ -106,7 +107,9 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
         driver = DriverSettings(
             port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols
         )
-        name = f"/{arguments.skins[0].strip('/')}" if arguments.skins else "/board"
+        (given,) = arguments.skins or ["board"]
+        # That of the root is empty, before the slash of its topics.
+        name = "" if given == "/" else full_name(given, "namespace")
         record_dir = settings.record_folder if arguments.control else None
         source = BoardSource(
             name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir

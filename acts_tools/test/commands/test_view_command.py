@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 import http.client
 import itertools
 import json
@@ -15,7 +16,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,6 +30,7 @@ from websockets.sync.client import ClientConnection, connect
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_driver.replay import ReplayOptions, open_recording
 from acts_ros.bags.reading import open_bag
+from acts_tools import view
 from acts_tools.bench.rigs.processes import Board, virtual_board
 
 pytestmark = pytest.mark.slow
@@ -218,3 +222,34 @@ def test_a_port_that_cannot_be_is_refused_without_a_graph_too(source: str, tmp_p
     assert process.returncode == 1
     assert output.startswith("error: port = 99999: allowed is 0 to 65535"), output
     assert output.count("\n") == 1
+
+
+def test_a_board_gets_no_name_that_its_topics_could_not_have() -> None:
+    with start("--board", "nowhere", "a b", "--port", "0") as process:
+        output, _ = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == 1
+    assert output.startswith("error: 'a b' is no namespace: allowed are"), output
+    assert output.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "name"), [((), "/board"), (("plate",), "/plate"), (("/arm/left/",), "/arm/left"), (("/",), "")]
+)
+def test_a_board_is_named_as_its_topics_are(words: tuple[str, ...], name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    named: list[str] = []
+    monkeypatch.setattr("acts_view.local.sources.BoardSource", lambda given, *_, **__: named.append(given))
+    monkeypatch.setattr("acts_view.local.show.show", lambda _source, given, **_: named.append(given) or 0)
+    parser = argparse.ArgumentParser()
+    view.add_parser(parser.add_subparsers())
+    arguments = parser.parse_args(["view", *words, "--board", "nowhere"])
+    signals = SimpleNamespace(interrupting=nullcontext)
+    assert view._show_local(arguments, signals) == 0  # type: ignore[arg-type]
+    assert named == [name, name]
+
+
+def test_a_host_that_no_name_can_be_is_refused() -> None:
+    with start("--host", "lab..local", "--port", "0") as process:
+        output, _ = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == REFUSED_EXIT_CODE
+    assert "error: cannot listen on lab..local port 0: " in output
+    assert "Traceback" not in output

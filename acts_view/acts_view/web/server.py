@@ -146,10 +146,12 @@ class ViewServer:
         self._thread.start()
         try:
             self._server = asyncio.run_coroutine_threadsafe(self._begin(host, port), self._loop).result()
-        except OSError as error:
+        # UnicodeError: of a host that cannot be a name at all, such as "a..b".
+        except (OSError, UnicodeError) as error:
             self._end_loop()
+            reason = getattr(error, "strerror", None) or error
             raise SettingsError(
-                f"cannot listen on {host} port {port}: {error.strerror or error}; give another --port or --host, or "
+                f"cannot listen on {host} port {port}: {reason}; give another --port or --host, or "
                 "view_port:=NUMBER to a launch"
             ) from error
         bound_port = next(iter(self._server.sockets)).getsockname()[1]
