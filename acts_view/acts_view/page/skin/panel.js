@@ -17,6 +17,7 @@ import { nameOf, rounded, setText } from "../words.js";
 const CONTACT_ROWS = 4;
 const SILENT_MS = 1500;
 const SHAPE_MS = 500; // so long the node that knows what a skin is like may take to tell it
+const NEAR = "50%"; // of the window, beyond its edges: so far a skin is drawn, too, since one may scroll there
 const NUMBERS_EVERY_MS = 200; // faster, nobody can read them
 
 const NUMBERS = [
@@ -96,6 +97,9 @@ export class Panel {
     for (const button of this.element.querySelectorAll("[data-save]")) button.onclick = () => this.#save(button.dataset.save);
     this.outputs = Object.fromEntries(NUMBERS.map(([key]) => [key, this.find(`[data-number=${key}]`)]));
     this.rows = [...this.element.querySelectorAll("tbody tr")].map((row) => [...row.cells]);
+    // Of many skins most are beyond the window's edges, and to draw those, too, makes the others jerk.
+    this.isSeen = true;
+    new IntersectionObserver((changes) => this.#see(changes.at(-1).isIntersecting), { rootMargin: NEAR }).observe(this.element);
   }
 
   /** What the skin is like; one whose picture is held is as it was until then. */
@@ -127,7 +131,7 @@ export class Panel {
     this.#show(message);
     // With the next picture of the screen: where drawing takes longer than from one message to the next, messages would
     // pile up and ever older ones be shown. Of a page that nobody sees a browser makes no picture.
-    this.drawing ??= requestAnimationFrame(() => this.#drawSkin());
+    if (this.isSeen) this.drawing ??= requestAnimationFrame(() => this.#drawSkin());
   }
 
   /** Hold what is shown, or go on. */
@@ -179,7 +183,7 @@ export class Panel {
     pill.dataset.state = state;
     this.element.dataset.gone = String(isGone && !this.isHeld);
     this.element.dataset.silent = String(state === "silent");
-    this.plots.draw();
+    if (this.isSeen) this.plots.draw();
     if (!this.isHeld && now_ms - this.numbers_ms > NUMBERS_EVERY_MS) this.#showFigures(now_ms);
   }
 
@@ -188,6 +192,11 @@ export class Panel {
     this.message = message;
     this.regions.take(message.hand);
     this.view.setState(message);
+  }
+
+  #see(isSeen) {
+    if (isSeen && !this.isSeen) this.redraw();
+    this.isSeen = isSeen;
   }
 
   #appear() {

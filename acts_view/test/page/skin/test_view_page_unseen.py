@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The page while its tab is not the one that is seen, in a real browser that plays this, and when it is seen again."""
+"""What of the page nobody sees, in a real browser: it draws nothing there, and the newest when it is seen again."""
 
 from __future__ import annotations
 
@@ -78,3 +78,35 @@ def test_a_page_that_nobody_sees_draws_nothing_and_shows_the_newest_when_it_is_s
     page.wait_for_function(PRESSED)
     expect(page.locator("[data-number=peak]")).to_have_text("1023")
     expect(page.locator(".skin .pill")).to_have_text("live")
+
+
+# How often the picture of each skin is drawn.
+COUNT = """() => {
+  window.counts = {};
+  const clear = CanvasRenderingContext2D.prototype.clearRect;
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    const name = this.canvas.closest(".skin")?.dataset.skin;
+    window.counts[name] = (window.counts[name] ?? 0) + 1;
+    clear.apply(this, box);
+  };
+}"""
+
+
+def test_of_many_skins_those_far_beyond_the_window_are_drawn_when_one_scrolls_there(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(("/a", "/b", "/c", "/d")), 390, 844)
+    page.wait_for_selector("[data-skin='/d'] .pill[data-state=live]")
+    page.evaluate(COUNT)
+    # What was begun before comes to its end.
+    page.wait_for_function("() => window.counts['/a'] > 10")
+    page.evaluate("window.counts = {}")
+    page.wait_for_function("() => window.counts['/a'] > 50")
+    assert "/d" not in page.evaluate("Object.keys(window.counts)")
+    page.locator("[data-skin='/d'] canvas.marks").scroll_into_view_if_needed()
+    page.wait_for_function("() => window.counts['/d'] > 50")
+    page.evaluate("window.counts = {}")
+    page.wait_for_function("() => window.counts['/d'] > 50")
+    assert "/a" not in page.evaluate("Object.keys(window.counts)")
+    # What it feels is told all the same.
+    expect(page.locator("[data-skin='/a'] [data-number=peak]")).to_have_text("800")
