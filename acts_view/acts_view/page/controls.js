@@ -89,18 +89,29 @@ export class Controls {
     refused.dataset.refused = name;
     refused.setAttribute("role", "status");
     // What is being typed stays as it is until it has been answered, also where one has gone on meanwhile.
-    let asked = 0;
+    let wanted = null; // of the last change, as long as it is not asked for
+    let isAsking = false;
     field.oninput = () => { field.dataset.typed = ""; };
-    field.onblur = () => { if (!asked) delete field.dataset.typed; };
+    field.onblur = () => { if (!isAsking) delete field.dataset.typed; };
+    // Who turns the wheel wants to go on down the page: a number that has the focus would change, and be set unseen.
+    field.onwheel = () => { if (name !== "scheme") field.blur(); };
     field.onchange = async () => {
-      const { value: text } = field;
       const value = name === "scheme" ? field.value : field.valueAsNumber;
       refused.textContent = name === "scheme" ? "" : refusal(value, least, most);
       if (refused.textContent) return;
-      asked += 1;
-      await this.#ask(`${title}, ${nameOf(of)}`, "set", { skin: of, name, value });
-      asked -= 1;
-      if (!asked && (field.value === text || field !== document.activeElement)) delete field.dataset.typed;
+      wanted = { value, text: field.value };
+      if (isAsking) return;
+      isAsking = true;
+      let text = "";
+      // One at a time; the last one counts, as of an arrow key that is held.
+      while (wanted) {
+        const details = { skin: of, name, value: wanted.value };
+        ({ text } = wanted);
+        wanted = null;
+        await this.#ask(`${title}, ${nameOf(of)}`, "set", details);
+      }
+      isAsking = false;
+      if (field.value === text || field !== document.activeElement) delete field.dataset.typed;
     };
     label.append(field);
     const both = document.createElement("span");

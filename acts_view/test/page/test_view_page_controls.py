@@ -14,7 +14,7 @@ from view_player import Player
 from waiting import wait_for
 
 from acts_view.nodes.control import RANGES
-from acts_view.web.requests import Answer
+from acts_view.web.requests import Answer, Number, Request
 from acts_view.web.server import READ_ONLY
 
 if TYPE_CHECKING:
@@ -146,3 +146,48 @@ def test_a_field_that_one_has_left_keeps_its_value_until_the_answer(
     answer(False, "too busy")
     expect(page.locator("#controls > .answer")).to_contain_text("too busy")
     expect(field).to_have_value("55")
+
+
+def test_of_values_that_follow_one_another_the_last_one_counts(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = play()
+    asked: list[Number | str | None] = []
+    waiting: list[Answer] = []
+
+    def take(request: Request, answer: Answer) -> None:
+        asked.append(request.value)
+        waiting.append(answer)
+
+    monkeypatch.setattr(player.server, "_on_request", take)
+    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "threshold_counts": 40}}}
+    page = open_page(player)
+    field = page.locator("#controls [data-name=m]")
+    expect(field).to_have_value("55")
+    field.focus()
+    for _ in range(12):
+        page.keyboard.press("ArrowUp")
+    expect(field).to_have_value("67")
+    wait_for(lambda: len(waiting) == 1, "a request", state=lambda: asked)
+    waiting[0](True, "set")
+    wait_for(lambda: len(waiting) == 2, "the last value", state=lambda: asked)
+    waiting[1](True, "set anew")
+    expect(page.locator("#controls > .answer")).to_contain_text("set anew")
+    assert asked == [56, 67]
+    # Of another one's than this page's.
+    player.status["settings"] = {"/plate": {"m": 20, "threshold_counts": 40}}
+    expect(field).to_have_value("20")
+
+
+def test_a_wheel_moves_the_page_and_no_number(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
+    player = play()
+    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "threshold_counts": 40}}}
+    page = open_page(player, 1280, 600)
+    field = page.locator("#controls [data-name=m]")
+    expect(field).to_have_value("55")
+    field.click()
+    before = page.evaluate("window.scrollY")
+    page.mouse.wheel(0, -100)
+    page.wait_for_function("(before) => window.scrollY < before", arg=before)
+    assert field.input_value() == "55"
+    assert page.locator("#controls > .answer").inner_text() == ""
