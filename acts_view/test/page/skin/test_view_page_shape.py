@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The shape of a skin on the page, in a real browser: drawn when it is known, and the scale of its colours below it."""
+"""The shape of a skin on the page, in a real browser: drawn when it is known, with its scale and plots, on all windows."""
 
 from __future__ import annotations
 
@@ -78,3 +78,36 @@ def test_the_scale_is_as_wide_as_the_picture(
     # Below a very narrow one its words have room, of 16 px a letter.
     assert scale["width"] == pytest.approx(max(picture["width"], 9 * 16), abs=1)
     assert page.evaluate("(ends) => ends.scrollWidth <= ends.clientWidth", page.query_selector(".ends"))
+
+
+@pytest.mark.parametrize("width", [750, 900, 1024, 1190])
+def test_no_plot_is_alone_in_a_row(play: Callable[..., Player], open_page: Callable[..., Page], width: int) -> None:
+    page = open_page(play(), width)
+    tops = page.eval_on_selector_all(".plots figure", "(all) => all.map((one) => one.offsetTop)")
+    assert [tops.count(top) for top in tops] == [2, 2, 2, 2]
+
+
+def test_a_phone_on_its_side_shows_the_skin_below_one_row_of_buttons_that_does_not_stay(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), 844, 390, has_touch=True, is_mobile=True)
+    bar = page.locator("header.bar")
+    tops = page.eval_on_selector_all(".controls > button", "(all) => all.map((one) => one.offsetTop)")
+    assert len(set(tops)) == 1
+    page.evaluate("window.scrollTo(0, 300)")
+    box = bar.bounding_box()
+    assert box is not None
+    assert box["y"] + box["height"] < 0
+
+
+def test_a_very_large_screen_has_larger_text_and_pictures(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    sizes = []
+    for width, height in ((1920, 1080), (3840, 2160)):
+        page = open_page(player, width, height)
+        assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+        boxes = (page.locator(one).first.bounding_box() for one in (".canvases", ".plots figure", ".numbers dd"))
+        sizes.append([box["height"] for box in boxes if box])
+    assert all(large >= 1.45 * usual for usual, large in zip(*sizes, strict=True)), sizes
