@@ -29,7 +29,7 @@ const ZOOMS = {
 
 const panels = new Panels(document.getElementById("skins"), () => hold(true));
 const diagnostics = new Diagnostics(document.getElementById("diagnostics"));
-const replay = new Replay(document.getElementById("replay"));
+const replay = new Replay(document.getElementById("replay"), () => panels.isHeld);
 const recording = new Recording(document.getElementById("recording"));
 const controls = new Controls(document.getElementById("controls"));
 
@@ -75,6 +75,7 @@ function hold(isHeld) {
   byId("pause").setAttribute("aria-pressed", String(isHeld));
   byId("pause").textContent = isHeld ? "Go on" : "Pause";
   panels.hold(isHeld);
+  if (!isHeld) replay.goOn();
 }
 
 function show() {

@@ -7,9 +7,13 @@ import { ask } from "./requests.js";
 
 const SETTLE_MS = 600; // until the server tells where it is after a seek
 
+const PAUSED = "this page is paused: Go on shows it";
+
 export class Replay {
-  constructor(element) {
+  /** In `element`; isPaused() tells whether the page stays as it is meanwhile. */
+  constructor(element, isPaused) {
     this.element = element;
+    this.isPaused = isPaused;
     this.button = element.querySelector("button");
     this.slider = element.querySelector("input");
     this.time = element.querySelector("output");
@@ -81,9 +85,14 @@ export class Replay {
     this.isSeeking = false;
   }
 
-  /** What was done can be seen; only what was not is said. */
+  /** The page is no longer paused. */
+  goOn() {
+    if (this.answer.textContent === PAUSED) this.answer.textContent = "";
+  }
+
+  /** What was done can be seen, unless the page is paused; only what was not is said. */
   #tellAnswer({ done, text }) {
-    this.answer.textContent = done ? "" : text;
+    this.answer.textContent = !done ? text : this.isPaused() ? PAUSED : "";
   }
 
   #tell(position_s) {

@@ -84,7 +84,9 @@ def test_where_one_goes_in_a_pause_of_the_page_is_shown_when_it_goes_on(
         # 900 counts from the seventh frame on, at 2 Hz; nothing more comes of what is held.
         expect(beside.locator("[data-number=peak]")).to_have_text(re.compile("^[89]..$"))
         expect(page.locator("#replay output")).to_have_text("10.0 of 20.0 s")
+        expect(page.locator("#replay .answer")).to_have_text("this page is paused: Go on shows it")
         page.click("#pause")
+        expect(page.locator("#replay .answer")).to_be_hidden()
         expect(peak).to_have_text(re.compile("^[89]..$"))
     finally:
         shown.close()
