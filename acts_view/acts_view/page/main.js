@@ -33,6 +33,8 @@ const replay = new Replay(document.getElementById("replay"), () => panels.isHeld
 const recording = new Recording(document.getElementById("recording"));
 const controls = new Controls(document.getElementById("controls"));
 
+let version = null; // of the page that this is
+
 const darkSystem = matchMedia("(prefers-color-scheme: dark)");
 const byId = (id) => document.getElementById(id);
 
@@ -41,6 +43,9 @@ function onMessage(message) {
   else if (message.type === "frame") panels.of(message.skin).take(message);
   else if (message.type === "answer") answered(message);
   else if (message.type === "status") {
+    version ??= message.version;
+    // The server was started again with another page, as after an update; what is paused is looked at first.
+    if (message.version !== version && !panels.isHeld) location.reload();
     diagnostics.show(message.diagnostics);
     replay.show(message.replay);
     recording.show(message.recording);

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -32,3 +34,11 @@ def read_page() -> dict[str, PageFile]:
         if path.suffix in _TYPES
     }
     return {"/": files["/index.html"], **files}
+
+
+def version_of(files: Mapping[str, PageFile]) -> str:
+    """The same for the same page; an open page of another one may not understand what this server sends."""
+    digest = hashlib.sha256()
+    for path, file in sorted(files.items()):
+        digest.update(path.encode() + b"\0" + file.body)
+    return digest.hexdigest()[:16]

@@ -29,7 +29,7 @@ from acts_view.web.access import is_local_host, new_token, refusal
 from acts_view.web.codec import encode
 from acts_view.web.connections import FailureLog, LimitedConnection
 from acts_view.web.display import Display, Reader
-from acts_view.web.page_files import read_page
+from acts_view.web.page_files import read_page, version_of
 from acts_view.web.requests import STOPS, RequestHandler, read_request
 
 STREAM_PATH = "/stream"
@@ -136,6 +136,7 @@ class ViewServer:
         self._find_file = find_file
         self._downloads = 0
         self._files = read_page()
+        self._version = version_of(self._files)
         self._clients: set[_Client] = set()
         self._token = "" if is_local_host(host) else new_token()
         self._failures = FailureLog(log)
@@ -171,7 +172,7 @@ class ViewServer:
 
     def show_status(self, status: dict[str, Any]) -> None:
         """As `Display.show_status`, from any thread."""
-        self._show(self._display.show_status, status)
+        self._show(self._display.show_status, {"version": self._version, **status})
 
     def every(self, period_s: float, call: Callable[[], None]) -> None:
         """Call something on the server's thread again and again, from now until the end; an error in it is logged.

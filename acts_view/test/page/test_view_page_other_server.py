@@ -14,6 +14,7 @@ from view_browser import expect, needs_browser
 from view_player import Player
 
 from acts_view.skin.snapshot import Frame
+from acts_view.web import server
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -106,3 +107,18 @@ def test_what_a_node_has_said_can_be_opened_also_when_the_server_is_gone(
     page.wait_for_selector("#connection[data-state=gone]")
     page.click("#diagnostics summary")
     expect(page.locator("#diagnostics dl")).to_have_text("portauto")
+
+
+def test_a_server_with_another_page_gets_it_loaded_but_not_in_a_pause(
+    follow: Callable[..., tuple[Page, Player]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def meanwhile(page: Page) -> None:
+        page.click("#pause")
+        monkeypatch.setattr(server, "version_of", lambda _files: "another")
+
+    page, second = follow("/plate", meanwhile=meanwhile)
+    second.status["note"] = "later"
+    expect(page.locator("#note")).to_have_text("later")
+    expect(page.locator(PLATE)).to_have_attribute("data-kept", "yes")
+    page.click("#pause")
+    expect(page.locator(f"{PLATE}:not([data-kept]) .pill")).to_have_text("live")
