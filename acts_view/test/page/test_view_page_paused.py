@@ -186,3 +186,18 @@ def test_what_came_last_in_a_pause_is_shown_when_the_page_goes_on_though_nothing
     expect(plate.locator("[data-number=peak]")).to_have_text("300")
     (pressed_at,) = (row for row in saved_table(page, "taxels", tmp_path) if row["counts"] != "0")
     assert (pressed_at["row"], pressed_at["col"], pressed_at["counts"]) == (str(ROW), "5", "300")
+
+
+def test_the_joints_of_a_hand_stay_in_a_zoom_long_after_the_pause_began(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play())
+    joints = page.locator(".joints dt")
+    expect(joints).to_have_text(["index mcp", "thumb tip"])
+    page.keyboard.press(" ")
+    paused_ms = page.evaluate("performance.now()")
+    # Longer than they stay where nobody publishes them any more.
+    page.wait_for_function("(from_ms) => performance.now() - from_ms > 2100", arg=paused_ms)
+    page.keyboard.press("+")
+    expect(page.locator("#pause")).to_have_text("Go on")
+    expect(joints).to_have_text(["index mcp", "thumb tip"])

@@ -136,6 +136,8 @@ export class Panel {
 
   /** Hold what is shown, or go on. */
   hold(isHeld) {
+    // A zoom of what is held already changes nothing else of it.
+    if (isHeld === this.isHeld) return;
     this.isHeld = isHeld;
     if (!isHeld) {
       if (this.coming) this.describe(this.coming);
