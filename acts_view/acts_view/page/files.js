@@ -8,7 +8,7 @@ import { socketUrl } from "./connection.js";
 const WHOLE = 1000; // how a socket is closed behind a file that is whole
 const SILENT_MS = 15000; // a server that sends nothing for so long is gone, as after this machine was asleep
 
-/** Pieces of a file, by a socket of its own, since that is where the server checks who asks; onSent(bytes) meanwhile. */
+/** A file from the server, by a socket of its own, since that is where the server checks who asks; onSent(bytes) meanwhile. */
 export function fetchFile(path, onSent) {
   const socket = new WebSocket(socketUrl(path));
   socket.binaryType = "blob"; // the browser may keep it on disk
@@ -33,10 +33,20 @@ export function fetchFile(path, onSent) {
     };
     socket.onclose = ({ code }) => {
       clearTimeout(watchdog);
-      if (code === WHOLE) resolve(pieces);
+      if (code === WHOLE) resolve(held(new Blob(pieces)));
       else fail();
     };
   });
+}
+
+/** A file that is complete, unless this browser could not hold all of it, which is seen only where it is read. */
+async function held(file) {
+  try {
+    await file.slice(-1).arrayBuffer();
+  } catch {
+    throw new Error("too large for this browser; copy it from the machine that serves this page");
+  }
+  return file;
 }
 
 /** Give pieces of a file to the person, under a name. */

@@ -64,8 +64,8 @@ export class Recording {
     size.textContent = megabytes(bytes);
     onceAtATime(button, async () => {
       try {
-        const pieces = await fetchFile(`recordings/${name}`, (sent) => { size.textContent = `${megabytes(sent)} of ${megabytes(bytes)}`; });
-        save(name, pieces, "application/octet-stream");
+        const file = await fetchFile(`recordings/${name}`, (sent) => { size.textContent = `${megabytes(sent)} of ${megabytes(bytes)}`; });
+        save(name, [file], "application/octet-stream");
         size.textContent = megabytes(bytes);
       } catch (error) {
         size.textContent = error.message;

@@ -115,3 +115,27 @@ def test_a_download_that_stands_still_is_given_up(
     item.locator("button").click()
     expect(item).to_contain_text("did not send it to its end; try again")
     expect(item.locator("button")).to_have_attribute("aria-disabled", "false")
+
+
+# As Chromium does where the file is larger than what it keeps in memory, and it has no disk for the rest.
+TOO_SMALL = """
+Blob.prototype.arrayBuffer = () => Promise.reject(new DOMException("could not be read", "NotReadableError"));
+"""
+
+
+def test_a_download_that_the_browser_cannot_hold_is_told(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    player = play()
+    player.status["recording"] = {"on": False, "note": "", "files": [["touch.mcap", 2_000_000]]}
+    (tmp_path / "touch.mcap").write_bytes(bytes(2_000_000))
+    monkeypatch.setattr(player.server, "_find_file", lambda name: tmp_path / name)
+    page = open_page(player)
+    item = page.locator("#recording .files li")
+    with page.expect_download() as downloading:
+        item.locator("button").click()
+    assert downloading.value.path().stat().st_size == 2_000_000
+    page.add_init_script(TOO_SMALL)
+    page.reload()
+    item.locator("button").click()
+    expect(item).to_contain_text("too large for this browser; copy it from the machine that serves this page")
