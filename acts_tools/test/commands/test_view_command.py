@@ -238,7 +238,12 @@ def test_a_board_gets_no_name_that_its_topics_could_not_have() -> None:
 def test_a_board_is_named_as_its_topics_are(words: tuple[str, ...], name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     named: list[str] = []
     monkeypatch.setattr("acts_view.local.sources.BoardSource", lambda given, *_, **__: named.append(given))
-    monkeypatch.setattr("acts_view.local.show.show", lambda _source, given, **_: named.append(given) or 0)
+
+    def show(_source: object, given: str, **_: object) -> int:
+        named.append(given)
+        return 0
+
+    monkeypatch.setattr("acts_view.local.show.show", show)
     parser = argparse.ArgumentParser()
     view.add_parser(parser.add_subparsers())
     arguments = parser.parse_args(["view", *words, "--board", "nowhere"])

@@ -239,7 +239,12 @@ def test_what_is_pressed_twice_before_the_server_has_told_of_it_is_as_before(
     source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
     asked: list[str] = []
     act = source.do
-    monkeypatch.setattr(source, "do", lambda request: (asked.append(request.do), act(request))[1])
+
+    def note(request: Request) -> str:
+        asked.append(request.do)
+        return act(request)
+
+    monkeypatch.setattr(source, "do", note)
     shown = Shown(source, name)
     try:
         page = open_page(shown)

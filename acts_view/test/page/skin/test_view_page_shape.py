@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The shape of a skin on the page, in a real browser: drawn when it is known, with its scale and plots, on all windows."""
+"""A skin on the page, in a real browser: drawn when its shape is known, with scale and plots that fit all windows."""
 
 from __future__ import annotations
 
