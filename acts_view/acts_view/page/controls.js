@@ -129,12 +129,18 @@ export class Controls {
   }
 
   async #ask(title, what, details) {
-    const line = this.element.querySelector(".answer");
-    line.dataset.done = "waiting";
+    const answers = this.element.querySelector(".answer");
+    // Others that wait keep their lines, so that the answer to one does not take the place of that to another.
+    for (const line of answers.querySelectorAll("span:not([data-done=waiting])")) line.remove();
+    const line = document.createElement("span");
+    line.dataset.done = answers.dataset.done = "waiting";
     line.textContent = `${title}: asked …`;
+    answers.append(line);
     const { done, text } = await ask(what, details);
     line.dataset.done = String(done);
     line.textContent = `${title}: ${text}`;
+    // Of the newest.
+    answers.dataset.done = answers.lastChild.dataset.done;
   }
 }
 

@@ -191,3 +191,23 @@ def test_a_wheel_moves_the_page_and_no_number(play: Callable[..., Player], open_
     page.wait_for_function("(before) => window.scrollY < before", arg=before)
     assert field.input_value() == "55"
     assert page.locator("#controls > .answer").inner_text() == ""
+
+
+def test_an_answer_that_comes_late_does_not_take_the_place_of_another(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = play()
+    waiting: dict[str, Answer] = {}
+    monkeypatch.setattr(player.server, "_on_request", lambda request, answer: waiting.update({request.do: answer}))
+    player.status |= {"offers": [["calibrate", "/plate"], ["stop_balancing", "/plate"]]}
+    page = open_page(player)
+    lines = page.locator("#controls > .answer > span")
+    for what in ("calibrate", "stop_balancing"):
+        page.click(f"[data-do={what}]")
+        wait_for(lambda what=what: what in waiting, what)  # type: ignore[misc]
+    waiting["stop_balancing"](False, "it is not reached")
+    expect(lines).to_have_text(["Calibrate, /plate: asked …", "Stop balancing, /plate: it is not reached"])
+    waiting["calibrate"](True, "calibrated")
+    expect(lines).to_have_text(["Calibrate, /plate: calibrated", "Stop balancing, /plate: it is not reached"])
+    page.click("[data-do=calibrate]")
+    expect(lines).to_have_text(["Calibrate, /plate: asked …"])
