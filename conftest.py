@@ -34,8 +34,15 @@ settings.register_profile("acts", settings.get_profile("search"), derandomize=Tr
 settings.load_profile("acts")
 
 # In the background, or under nohup, these are ignored, and the processes that tests send them to would inherit that.
-signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+
+
+def _hear(number: signal.Signals) -> None:
+    signal.signal(number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
+
+
+for _number in _SIGNALS:
+    _hear(_number)
 
 # A minute and a half is the longest that a test took on a machine that was far too busy.
 _HANGS_AFTER_S = 600.0
@@ -131,6 +138,14 @@ def pytest_runtest_protocol(item: pytest.Item, nextitem: pytest.Item | None) -> 
             kept[_CORES] = cores
         else:
             cores.close()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown() -> None:
+    """Hear again what a launcher that a test ran in this process ignores once it has ended: processes inherit that."""
+    for number in _SIGNALS:
+        if signal.getsignal(number) is signal.SIG_IGN:
+            _hear(number)
 
 
 def _is_alone(item: pytest.Item) -> bool:
