@@ -6,6 +6,7 @@
 import sys
 import threading
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -31,12 +32,16 @@ def eager_threads() -> Iterator[None]:
     sys.setswitchinterval(interval_s)
 
 
-def test_frames_that_are_read_late_are_told() -> None:
-    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
-    stream = FrameStream(32, 32)
+def a_report(**options: Any) -> tuple[DriverReport, FrameStream]:
+    """That of a connected board of 32 x 32 taxels, and its stream."""
+    source, decoder, stream = SerialSource("/dev/ttyACM0"), StreamDecoder(), FrameStream(32, 32)
     reader = Reader(source, decoder, lambda frames, arrival_ns: None)
     reader.connected = True
-    report = DriverReport(source, reader, decoder, stream, (32, 32))
+    return DriverReport(source, reader, decoder, stream, (32, 32), **options), stream
+
+
+def test_frames_that_are_read_late_are_told() -> None:
+    report, stream = a_report()
 
     def receive(sequence: int, count: int, late_ms: int) -> None:
         numbers = range(sequence, sequence + count)
@@ -60,11 +65,7 @@ def test_frames_that_are_read_late_are_told() -> None:
 
 
 def test_what_a_board_dropped_before_anybody_read_it_is_no_warning() -> None:
-    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
-    stream = FrameStream(32, 32)
-    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
-    reader.connected = True
-    report = DriverReport(source, reader, decoder, stream, (32, 32))
+    report, stream = a_report()
     reports = []
     for sequence, overruns in ((0, 70_000), (1, 70_000), (2, 70_002)):
         frame = SampleFrame(sequence, 1000 * sequence, 900, Scheme.RANDOM, 32, 32, overruns, NO_TAXELS, NO_TAXELS)
@@ -76,13 +77,8 @@ def test_what_a_board_dropped_before_anybody_read_it_is_no_warning() -> None:
 
 
 def test_a_slow_board_is_not_silent_between_two_frames() -> None:
-    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
-    stream, logged = FrameStream(32, 32), []
-    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
-    reader.connected = True
-    report = DriverReport(
-        source, reader, decoder, stream, (32, 32), log=lambda level, message: logged.append((level, message))
-    )
+    logged: list[tuple[str, str]] = []
+    report, stream = a_report(log=lambda level, message: logged.append((level, message)))
     levels = []
     # A frame a second, now before and now after the report of that second.
     for second, late_ms in enumerate((0, 0, 0, 0, 30, 30, 0, 0)):
@@ -98,11 +94,7 @@ def test_a_slow_board_is_not_silent_between_two_frames() -> None:
 
 
 def test_a_slow_board_of_a_wrong_size_is_an_error_between_two_frames_too() -> None:
-    source, decoder = SerialSource("/dev/ttyACM0"), StreamDecoder()
-    stream = FrameStream(32, 32)
-    reader = Reader(source, decoder, lambda frames, arrival_ns: None)
-    reader.connected = True
-    report = DriverReport(source, reader, decoder, stream, (32, 32))
+    report, stream = a_report()
     reports = []
     for second in range(8):
         rows = 32 if second == 7 else 16
