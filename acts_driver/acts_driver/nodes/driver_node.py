@@ -173,7 +173,10 @@ class DriverNode(LifecycleNode):
         """Take the node out of the graph at once."""
         super().destroy_node()
         # rclpy leaves this to the garbage collector, and until then the graph holds a node that answers nothing.
-        self._state_machine.destroy_when_not_in_use()
+        machine = getattr(self, "_state_machine", None)
+        # A start that a signal has broken off may not have come to it.
+        if machine is not None:
+            machine.destroy_when_not_in_use()
 
     def _publish(self, frames: list[tuple[SampleFrame, int]], results: list[tuple[BoardResult, int]]) -> None:
         """Publish what may be used; on the reader's thread."""

@@ -12,15 +12,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import rclpy
 from driver_rig import Rig, end_process, intake_of, read_until, start_process
 from lifecycle_msgs.msg import Transition
 from pty_board import PtyBoard, frame
+from rclpy.context import Context
 from rclpy.lifecycle import TransitionCallbackReturn
+from rclpy.lifecycle import node as lifecycle_node
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.frames import SampleFrame
 from acts_core.wire import encode_frame
 from acts_driver.nodes import report as report_module
+from acts_driver.nodes.driver_node import DriverNode
 from acts_msgs.msg import TactileSamples
 from acts_ros.qos import STREAM
 
@@ -323,6 +327,21 @@ def test_a_destroyed_driver_leaves_the_graph_at_once(board: PtyBoard, rig: Rig) 
     watching.spin_until(lambda: watching.listener.count_services(service) == 0, "the end of the driver")
     assert not driver.active
     watching.close()
+
+
+def test_a_driver_whose_making_a_signal_breaks_off_is_destroyed_as_any_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(lifecycle_node._rclpy, "LifecycleStateMachine", interrupt)
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=23)
+    with pytest.raises(KeyboardInterrupt) as broken_off:
+        DriverNode(context=context)
+    # As long as the error is known, so is the node: ROS destroys those that it knows.
+    assert broken_off.value is not None
+    rclpy.try_shutdown(context=context)
+    assert not context.ok()
 
 
 def test_quality_of_service_can_be_overridden(board: PtyBoard, rig: Rig) -> None:
