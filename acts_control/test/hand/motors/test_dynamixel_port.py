@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 import os
+import select
 import threading
-import time
 import tty
 from contextlib import suppress
 from pathlib import Path
@@ -91,11 +91,13 @@ def test_a_request_that_was_asked_again_and_answered_twice_shifts_no_later_answe
                     asked += 1
                     if asked == 1:
                         continue
-                    # The second request is answered as the first; its own answer comes when the next one may be there.
-                    for _ in range(2 if asked == 2 else 1):
-                        value = values[int.from_bytes(packet.parameters[:2], "little")]
-                        os.write(adapter, encode_status(packet.motor_id, 0, value.to_bytes(2, "little")))
-                        time.sleep(0.1 if asked == 2 else 0.0)
+                    value = values[int.from_bytes(packet.parameters[:2], "little")]
+                    answer = encode_status(packet.motor_id, 0, value.to_bytes(2, "little"))
+                    os.write(adapter, answer)
+                    if asked == 2:
+                        # That was the answer to the first request; its own comes once the next one is there, if it is.
+                        select.select([adapter], [], [], 0.1)
+                        os.write(adapter, answer)
 
     thread = threading.Thread(target=serve, daemon=True)
     thread.start()
