@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable
 
 from acts_control.robots.base import RobotReading
@@ -20,6 +21,7 @@ class ArmInProcess:
     address = "in this process"
 
     def __init__(self) -> None:
+        self.longest_step_rad = math.inf
         self.q = (0.1, 0.0)
         self.calls: list[str] = []
         self.commands: list[tuple[float, float]] = []

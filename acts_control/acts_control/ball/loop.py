@@ -38,7 +38,8 @@ _HOMED = 0.002
 _STANDING_STILL = 2e-4
 _STANDING_STILL_POLLS = 5
 
-# Longest step the controller is told of: after the process was held up, it goes on from where it was.
+# Longest step the controller is told of: after the process was held up, it goes on from where it was. It is shorter
+# where the robot would refuse what the plate may turn meanwhile.
 _MAX_PERIODS = 4
 _MIN_STEP_S = 1e-4
 
@@ -266,13 +267,14 @@ class ControlLoop:
                 return f"{controller.state.reason}; levelling was broken off after {_ENDING_TIMEOUT_S:g} s"
             steps += 1
             late += cycle.is_late
-            dt = min(max(cycle.dt_s, _MIN_STEP_S), _MAX_PERIODS * period)
+            passed_s = min(max(cycle.dt_s, _MIN_STEP_S), _MAX_PERIODS * period)
             # Before the robot is read and the time taken: it may have a whole queue of contacts to work on.
             self.look(controller.state.phase)
-            reading = self._checked(watch, dt)
+            reading = self._checked(watch, passed_s)
             if self._stop_reason:
                 controller.end(self._stop_reason)
             self._take_changes(controller, gate)
+            dt = min(passed_s, self._robot.longest_step_rad / self._config.max_tilt_rate_rad_s)
             now_ns = self._now_ns()
             measured = reading.tilt_rad
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)

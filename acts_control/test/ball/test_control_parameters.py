@@ -27,6 +27,7 @@ class NoArm:
 
     address = "nowhere"
     is_busy = False
+    longest_step_rad = 0.05
 
     def connect(self, is_wanted: Callable[[], bool]) -> None:
         raise RobotError("no arm")

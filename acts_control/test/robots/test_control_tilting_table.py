@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from math import hypot, isfinite
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,9 @@ from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.robots import ROBOTS, RobotKind, make_robot, with_robots
 from acts_control.robots.base import CommandRefusedError, Robot
 from acts_core.errors import RobotError, SettingsError
+
+# A plate that is turned to and fro as fast as its settings allow.
+HASTY = {"max_tilt_rate_rad_s": 3.0, "max_tilt_acceleration_rad_s2": 40.0, "kp": 60.0}
 
 PAGE = (Path(__file__).parents[3] / "docs" / "extending.md").read_text()
 DEADLINE_S = 60.0
@@ -72,7 +76,11 @@ class Run:
     """A run of the control loop on the table: contacts of the simulated skin, and the centre as reference."""
 
     def __init__(
-        self, table: SimulatedTable, until_s: float, at: Callable[[float], None] = lambda _time_s: None
+        self,
+        table: SimulatedTable,
+        until_s: float,
+        at: Callable[[float], None] = lambda _time_s: None,
+        **others: float,
     ) -> None:
         self.table = table
         self.places_m: list[tuple[float, float, float]] = []
@@ -81,7 +89,7 @@ class Run:
         self._until_s = until_s
         self._at = at
         table.on_contact = self._estimator.step
-        settings = with_robots(LoopConfig)(robot=NAME, lever_arm_m=LEVER_ARM_M)
+        settings = with_robots(LoopConfig)(robot=NAME, lever_arm_m=LEVER_ARM_M, **others)
         self.loop = ControlLoop(
             settings,
             make_robot(settings),
@@ -147,6 +155,19 @@ def test_where_touch_returns_the_ball_is_balanced_again(names: dict[str, Any], t
     run = Run(table, until_s=6.5)
     assert run.status.reason == "the time is up"
     assert run.farthest_m(5.0) < 0.003
+
+
+def test_a_late_cycle_makes_up_for_no_more_than_the_motors_may_turn_at_once(
+    names: dict[str, Any], table: SimulatedTable
+) -> None:
+    def hold_up(time_s: float) -> None:
+        if 0.5 < time_s < 1.5:
+            table.sleep(0.03)
+
+    run = Run(table, until_s=4.0, at=hold_up, **HASTY)
+    assert run.status.reason == "the time is up"
+    steps = [max(abs(b - a) for a, b in zip(*pair, strict=True)) for pair in pairwise(table.aims)]
+    assert 0.04 < max(steps) <= 0.05
 
 
 def test_a_cable_that_is_pulled_ends_motion_and_nothing_more_is_sent(

@@ -104,6 +104,10 @@ class Robot(Protocol):
     def address(self) -> str:
         """Where it is, for messages to people."""
 
+    @property
+    def longest_step_rad(self) -> float:
+        """How far a tilt may be from the one before it, about each axis [rad]; beyond that it may be refused."""
+
     def connect(self, is_wanted: Callable[[], bool]) -> None:
         """Connect and take control; soon gives up, with a `RobotError`, when it is not wanted any more.
 

@@ -61,6 +61,11 @@ class UrConfig(RobotConfig):
         0.05, "farthest a joint may go from one command to the next [rad]", minimum=1e-4, maximum=0.5
     )
 
+    @property
+    def longest_step_rad(self) -> float:
+        """How far the plate may tilt about each axis from one command to the next [rad]; both may turn at once."""
+        return self.max_joint_step_rad / (_OFFSET_PER_TILT * sqrt(2.0))
+
     def __post_init__(self) -> None:
         RobotConfig.__post_init__(self)
         least = _OFFSET_PER_TILT * self.max_tilt_rad

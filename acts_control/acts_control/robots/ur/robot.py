@@ -86,6 +86,11 @@ class UrRobot:
         self._is_left_running = False
 
     @property
+    def longest_step_rad(self) -> float:
+        """How far a tilt may be from the one before it, about each axis [rad]."""
+        return self._config.longest_step_rad
+
+    @property
     def address(self) -> str:
         """Address of the robot's controller."""
         return self._config.robot_ip
