@@ -348,7 +348,9 @@ def test_a_driver_whose_making_a_signal_breaks_off_is_destroyed_as_any_other(mon
     with pytest.raises(KeyboardInterrupt):
         Driver(context=context)
     assert list(half_made[0].publishers)
-    # ROS destroys the nodes that it knows.
+    # As it ends, ROS destroys the nodes that it knows; before Kilted, it knows none.
+    if not hasattr(context, "track_node"):
+        half_made[0].destroy_node()
     rclpy.try_shutdown(context=context)
     assert not list(half_made[0].publishers)
     assert not context.ok()
