@@ -18,6 +18,16 @@ from acts_ros.middleware import check_domain, choose_transports
 
 PROFILE, JAZZY_PROFILE = PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 FAST_DDS = "rmw_fastrtps_cpp"
+
+THREADS = """
+import rclpy
+from pathlib import Path
+from acts_ros import middleware
+middleware.init()
+node = rclpy.create_node("threads")
+for thread in Path("/proc/self/task").iterdir():
+    print((thread / "comm").read_text().strip())
+"""
 SHARED_MEMORY = """
 import rclpy
 from pathlib import Path
@@ -126,6 +136,19 @@ def test_no_process_waits_for_another_in_shared_memory(discovery: str) -> None:
         timeout=60,
     )
     assert finished.stdout.strip() == "False", finished.stderr
+
+
+def test_no_thread_of_a_process_that_is_bound_asks_for_descriptions_of_types() -> None:
+    finished = subprocess.run(
+        [sys.executable, "-c", THREADS],
+        env={**os.environ, "ROS_DOMAIN_ID": "201", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    names = finished.stdout.split()
+    assert [name for name in names if name.startswith("python")], finished.stderr
+    assert [name for name in names if name.startswith("dds.tls")] == []
 
 
 @pytest.mark.parametrize("domain", ["233", "-1", "abc", "4294967297", "1.5"])
