@@ -33,11 +33,11 @@ _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"
 _BOUND = "SYSTEM_DEFAULT"
 _TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 # Fast DDS of Jazzy knows only the older name; newer versions warn about it.
-_PROFILE, _JAZZY_PROFILE = "FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"
-# If any of these is set, the user has configured the network.
-_CHOICES = (_PROFILE, _JAZZY_PROFILE, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER")
+_PROFILES = (_PROFILE, _JAZZY_PROFILE) = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 # Fast DDS reads these files in the working directory of a process.
 _FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
+# These name other machines.
+_PEERS = ("ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER")
 
 HIGHEST_DOMAIN = 232
 """Largest domain whose ports, from 7400 + 250 * domain on, are below 65536."""
@@ -103,7 +103,8 @@ def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:
     """Disable the shared memory of Fast DDS and, if only this machine is to be reached, bind it to 127.0.0.1.
 
-    Settings of the user are kept. Child processes inherit the environment.
+    Both have a profile in the folder ``network`` of acts_config, which on Humble is not used. Settings of the user are
+    kept. Child processes inherit the environment.
 
     Parameters
     ----------
@@ -127,25 +128,32 @@ def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: P
     only_here = environment.get(_RANGE) == "LOCALHOST" or environment.get(_LOCALHOST_ONLY) == "1"
     if not rmw.startswith("rmw_fastrtps"):
         return f"ACTS cannot bind {rmw}" if only_here else None
-    profile = str(packages.share("acts_config", environment) / "network" / "loopback.xml")
-    if environment.get(_RANGE) != _BOUND:
-        # Inherited from a process that was bound; this one need not be.
-        for name in (_PROFILE, _JAZZY_PROFILE):
-            if environment.get(name) == profile:
-                del environment[name]
-    if not only_here:
-        # A profile defines the transports.
-        environment.setdefault(_TRANSPORTS, "UDPv4")
+    network = packages.share("acts_config", environment) / "network"
+    bound, unbound = str(network / "loopback.xml"), str(network / "open.xml")
+    if not only_here and environment.get(_RANGE) == _BOUND and bound in map(environment.get, _PROFILES):
+        # Inherited from a process that is bound.
         return None
-    if environment.get("ROS_DISTRO") == "humble":
+    for name in _PROFILES:
+        if environment.get(name) in (bound, unbound):
+            # Inherited from a process of which something else was asked.
+            del environment[name]
+    release = environment.get("ROS_DISTRO")
+    variable = _JAZZY_PROFILE if release == "jazzy" else _PROFILE
+    profiles = [name for name in _PROFILES if environment.get(name)]
+    profiles += [name for name in _FILES if (folder / name).exists()]
+    if not only_here:
+        environment.setdefault(_TRANSPORTS, "UDPv4")
+        if not profiles and release != "humble":
+            environment[variable] = unbound
+        return None
+    if release == "humble":
         # Humble does not know the range, but binds to the loopback by this variable.
         environment[_LOCALHOST_ONLY] = "1"
         return None
-    chosen = [name for name in _CHOICES if environment.get(name)]
-    chosen += [name for name in _FILES if (folder / name).exists()]
+    chosen = profiles + [name for name in _PEERS if environment.get(name)]
     if chosen:
         return f"{', '.join(chosen)} is there and is left as it is"
-    environment[_JAZZY_PROFILE if environment.get("ROS_DISTRO") == "jazzy" else _PROFILE] = profile
+    environment[variable] = bound
     environment.pop(_LOCALHOST_ONLY, None)
     environment[_RANGE] = _BOUND
     return None

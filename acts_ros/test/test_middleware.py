@@ -15,6 +15,7 @@ import rclpy
 
 from acts_core.errors import SettingsError
 from acts_ros.middleware import check_domain, choose_transports
+from acts_ros.processes import packages
 
 PROFILE, JAZZY_PROFILE = PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 FAST_DDS = "rmw_fastrtps_cpp"
@@ -43,6 +44,10 @@ def environment(**variables: str) -> dict[str, str]:
     return {"AMENT_PREFIX_PATH": os.environ["AMENT_PREFIX_PATH"], "ROS_DISTRO": "kilted", **variables}
 
 
+def profile(name: str) -> str:
+    return str(packages.share("acts_config", environment()) / "network" / f"{name}.xml")
+
+
 @pytest.mark.parametrize("asked", [{"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, {"ROS_LOCALHOST_ONLY": "1"}])
 def test_this_machine_only_takes_our_profile_and_nothing_beside_it(asked: dict[str, str], tmp_path: Path) -> None:
     variables = environment(**asked)
@@ -58,6 +63,7 @@ def test_this_machine_only_takes_our_profile_and_nothing_beside_it(asked: dict[s
 def test_the_network_stays_open_where_that_is_asked_for(asked: dict[str, str], tmp_path: Path) -> None:
     variables = environment(**asked)
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables.pop(PROFILE) == profile("open")
     assert variables == environment(**asked, FASTDDS_BUILTIN_TRANSPORTS="UDPv4")
 
 
@@ -72,14 +78,51 @@ def test_what_is_started_by_a_process_that_is_bound_may_be_open(tmp_path: Path) 
     )
     assert again == bound
     assert choose_transports(opened := {**bound, "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, FAST_DDS, tmp_path) is None
-    assert PROFILE not in opened
+    assert opened[PROFILE] == profile("open")
+
+
+def test_what_is_started_by_a_process_that_is_open_may_be_bound(tmp_path: Path) -> None:
+    opened = environment()
+    choose_transports(opened, FAST_DDS, tmp_path)
+    inherited = dict(opened)
+    assert choose_transports(inherited, FAST_DDS, tmp_path) is None
+    assert inherited == opened
+    assert (
+        choose_transports(bound := {**opened, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, FAST_DDS, tmp_path) is None
+    )
+    assert bound[PROFILE] == profile("loopback")
 
 
 def test_transports_that_the_user_has_chosen_stay(tmp_path: Path) -> None:
     asked = environment(FASTDDS_BUILTIN_TRANSPORTS="LARGE_DATA")
     variables = dict(asked)
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables.pop(PROFILE) == profile("open")
     assert variables == asked
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_a_profile_that_the_user_has_chosen_stays_on_an_open_network(name: str, tmp_path: Path) -> None:
+    asked = environment(**{name: "mine"})
+    variables = dict(asked)
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables == {**asked, "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+
+
+def test_a_profile_in_the_folder_stays_on_an_open_network(tmp_path: Path) -> None:
+    (tmp_path / "DEFAULT_FASTDDS_PROFILES.xml").write_text("<dds/>")
+    variables = environment()
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert not set(PROFILES) & set(variables)
+
+
+@pytest.mark.parametrize("name", ["ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"])
+def test_machines_that_the_user_names_are_looked_for_with_our_profile(name: str, tmp_path: Path) -> None:
+    asked = environment(**{name: "192.168.1.20"})
+    variables = dict(asked)
+    assert choose_transports(variables, FAST_DDS, tmp_path) is None
+    assert variables.pop(PROFILE) == profile("open")
+    assert variables == {**asked, "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 
 
 @pytest.mark.parametrize("name", [*PROFILES, "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"])
@@ -110,10 +153,11 @@ def test_another_middleware_is_left_alone_and_told(tmp_path: Path) -> None:
     assert variables == asked
 
 
-def test_jazzy_reads_the_profile_by_its_older_name(tmp_path: Path) -> None:
-    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_DISTRO="jazzy")
+@pytest.mark.parametrize(("asked", "wanted"), [("LOCALHOST", "loopback"), ("SUBNET", "open")])
+def test_jazzy_reads_the_profile_by_its_older_name(asked: str, wanted: str, tmp_path: Path) -> None:
+    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE=asked, ROS_DISTRO="jazzy")
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
-    assert "127.0.0.1" in Path(variables[JAZZY_PROFILE]).read_text()
+    assert variables[JAZZY_PROFILE] == profile(wanted)
     assert PROFILE not in variables
 
 
@@ -122,6 +166,9 @@ def test_humble_is_asked_in_its_own_way(tmp_path: Path) -> None:
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
     assert variables["ROS_LOCALHOST_ONLY"] == "1"
     assert not set(PROFILES) & set(variables)
+    opened = environment(ROS_DISTRO="humble")
+    assert choose_transports(opened, FAST_DDS, tmp_path) is None
+    assert not set(PROFILES) & set(opened)
 
 
 @pytest.mark.parametrize("discovery", ["LOCALHOST", "SUBNET"])
@@ -138,10 +185,11 @@ def test_no_process_waits_for_another_in_shared_memory(discovery: str) -> None:
     assert finished.stdout.strip() == "False", finished.stderr
 
 
-def test_no_thread_of_a_process_that_is_bound_asks_for_descriptions_of_types() -> None:
+@pytest.mark.parametrize("discovery", ["LOCALHOST", "SUBNET"])
+def test_no_thread_of_a_process_asks_for_descriptions_of_types(discovery: str) -> None:
     finished = subprocess.run(
         [sys.executable, "-c", THREADS],
-        env={**os.environ, "ROS_DOMAIN_ID": "201", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+        env={**os.environ, "ROS_DOMAIN_ID": "201", "ROS_AUTOMATIC_DISCOVERY_RANGE": discovery},
         capture_output=True,
         text=True,
         timeout=60,
