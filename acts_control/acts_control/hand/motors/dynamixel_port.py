@@ -11,6 +11,7 @@ but too short; what the port itself raises (OSError, termios.error) passes throu
 from __future__ import annotations
 
 import os
+import select
 import termios
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -101,6 +102,7 @@ class DynamixelPort:
                 # Before 4.1, which ROS does not have, it leaves in the port what came too late: each request from then
                 # on would get the answer to the one before.
                 self._port.clearPort = self._port.ser.reset_input_buffer
+                self._port.writePort = self._write
         except (OSError, termios.error) as error:
             self.disconnect()
             raise HandError(why_not(config.port, error)) from error
@@ -228,6 +230,17 @@ class DynamixelPort:
         if result != self._sdk.COMM_SUCCESS:
             raise HandError(f"the motors did not answer: {self._packets.getTxRxResult(result)}")
         return [bytes(self._group.data_dict[motor_id]) for motor_id in self._chosen]
+
+    def _write(self, packet: bytes) -> int:
+        """Write a packet for the library, which takes one that was not written whole for an exchange that failed."""
+        line = self._port.ser
+        try:
+            return int(line.write(packet))
+        except SerialTimeoutException:
+            # pyserial goes by the time alone, which also passes while this program stands still within a write.
+            if select.select([], [line.fileno()], [], 0)[1]:
+                return 0
+            raise
 
     @contextmanager
     def _using_port(self) -> Iterator[None]:

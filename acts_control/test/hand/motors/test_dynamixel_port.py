@@ -5,14 +5,17 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import select
 import threading
+import time
 import tty
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
+import serial
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
 from dynamixel_sdk import COMM_SUCCESS, PortHandler
 from waiting import wait_for
@@ -112,6 +115,36 @@ def test_a_request_that_was_asked_again_and_answered_twice_shifts_no_later_answe
         for end in (terminal, adapter):
             os.close(end)
         thread.join(DEADLINE_S)
+
+
+def test_a_program_that_stood_still_while_it_wrote_has_not_lost_the_port(
+    bus: Bus, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked, later_s = itertools.count(1), 0.0
+
+    def clock() -> float:
+        # It is read at the beginning of a write, and after that.
+        nonlocal later_s
+        if next(asked) == 2:
+            later_s += 5.0
+        return time.monotonic() + later_s
+
+    motor = LEAP_RIGHT.joints[2]
+    port = DynamixelPort(DynamixelConfig(port=str(bus.link), answer_timeout_ms=TIMEOUT_MS))
+    port.open()
+    try:
+        port.write(motor, P_GAIN, 500)
+        monkeypatch.setattr(serial.serialutil.Timeout, "TIME", staticmethod(clock))
+        with pytest.raises(HandError, match="nothing could be sent: ") as told:
+            port.send(GOAL_POSITION, dict.fromkeys(range(16), 0))
+        assert told.type is HandError
+        asked = itertools.count(1)
+        assert port.read(motor, P_GAIN) == 500
+        assert later_s == 10.0
+        port.choose([2], *P_GAIN)
+        assert port.gather() == [(500).to_bytes(2, "little")]
+    finally:
+        port.close()
 
 
 def test_a_port_that_takes_nothing_more_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
