@@ -33,7 +33,7 @@ from matplotlib import pyplot as plt
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-FRAMES = 400
+GRASP_FRAMES, FIGURE_FRAMES = 1000, 400
 START_S = 90.0
 FRAME_S = 0.001
 NOISE_COUNTS = 1.5
@@ -41,8 +41,8 @@ NOISE_COUNTS = 1.5
 TOUCH_COUNTS = 60
 # Share of the samples that a prediction may change by more than the skin does.
 FURTHER_LIMIT = 1e-3
-# Mean relative error: of samples fused over time (0.012 over the whole recording, 0.022 in the worst 400 frames in a
-# row), and of each frame alone (0.39).
+# Mean relative error: of samples fused over time (0.021 to 0.029 over the whole recording, by where in it the first
+# frame is and how many arrive), and of each frame alone (0.39).
 GRASP_ERROR_LIMIT = 0.05
 FIGURE_ERROR_LIMIT = 0.6
 
@@ -76,8 +76,10 @@ class TrueField:
         return float(np.abs(np.diff(around, axis=0)).max()) * self.rate_hz * FRAME_S
 
 
-def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str) -> list[Seen]:
-    """Frames of a recording after the way through board, driver and reconstruction."""
+def replay(
+    npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str, n_frames: int, lasting_s: float = 0.0
+) -> list[Seen]:
+    """At least so many frames, and of so long a time, after the way through board, driver and reconstruction."""
     params = npy.with_suffix(".yaml")
     params.write_text(f"/**/reconstruction:\n  ros__parameters:\n    method: {method}\n")
     parts: dict[str, dict[tuple[int, int], object]] = {"samples": {}, "image_raw": {}, "contact": {}}
@@ -104,11 +106,15 @@ def replay(npy: Path, rate_hz: float, domain_id: int, run_dir: Path, method: str
             return sorted(set.intersection(*(set(part) for part in parts.values())))
 
         def enough() -> bool:
-            # Short of that there cannot be enough whole ones; to look at all of them takes longer than a frame lasts.
-            return min(map(len, parts.values())) >= FRAMES and len(whole()) >= FRAMES
+            # To look for whole ones takes longer than a frame lasts.
+            if min(map(len, parts.values())) < n_frames:
+                return False
+            contacts = parts["contact"]
+            (began_s, began_ns), (now_s, now_ns) = next(iter(contacts)), next(reversed(contacts))
+            return now_s - began_s + 1e-9 * (now_ns - began_ns) >= lasting_s and len(whole()) >= n_frames
 
-        launch.probe.wait_for(enough, START_S, f"{FRAMES} whole frames")
-        stamps = whole()[:FRAMES]
+        launch.probe.wait_for(enough, START_S, f"{n_frames} whole frames of {lasting_s:.1f} s")
+        stamps = whole()
         assert launch.stop() == 0
     seen = []
     for stamp in stamps:
@@ -224,7 +230,9 @@ def test_real_grasps_arrive_as_they_were_pressed(
         busiest = int(np.argmax([load[s : s + n].mean() for s, n in zip(data["start"], data["length"], strict=True)]))
     exported = export_recording(grasps, tmp_path / "grasp.npy", recordings=[busiest])
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion")
+    # All of the recording: with less it would depend on when the first frame arrives how many have a light touch.
+    lasting_s = len(field.frames) / exported.rate_hz
+    seen = replay(exported.path, exported.rate_hz, 72, run_dir, "fusion", GRASP_FRAMES, lasting_s)
     # The fusion predicts what it measured to the frame's end.
     check_samples(seen, field, predicts=True)
     # It shows small counts, too: those at the rim of a contact are most of what a grasp begins with.
@@ -245,7 +253,7 @@ def test_the_papers_frame_arrives_as_it_was_pressed(
     figures = recording_path("paper/frames.npz")
     exported = export_recording(figures, tmp_path / "figure.npy", kind="full_raster", repeat=2)
     field = TrueField(exported.path, exported.rate_hz)
-    seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame")
+    seen = replay(exported.path, exported.rate_hz, 73, run_dir, "per_frame", FIGURE_FRAMES)
     check_samples(seen, field, predicts=False)
     check_recovery(seen)
     assert relative_errors(seen, field, TOUCH_COUNTS).mean() < FIGURE_ERROR_LIMIT
