@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -37,7 +38,8 @@ def write_whole(
         It cannot be written, or there is something that is not a regular file.
     """
     target = Path(os.path.realpath(path))
-    fresh = target.with_name(f".{target.name}.{os.getpid()}.new")
+    # Of this thread alone: another one may write the same file meanwhile.
+    fresh = target.with_name(f".{target.name}.{os.getpid()}.{threading.get_native_id()}.new")
     try:
         if target.exists() and not target.is_file():
             raise error(f"{path}: not a regular file, so nothing is written to it; give another name")

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,35 @@ def test_what_is_interrupted_leaves_what_was_there_and_nothing_else(tmp_path: Pa
         interrupted()
     assert [one.name for one in path.parent.iterdir()] == ["text"]
     assert path.read_bytes() == b"first"
+
+
+def test_two_threads_that_write_a_file_at_once_leave_a_whole_one(tmp_path: Path) -> None:
+    path = tmp_path / "text"
+    has_begun, may_end = threading.Event(), threading.Event()
+    failures: list[ActsError] = []
+
+    def write_slowly() -> None:
+        try:
+            with write_whole(path, error=ActsError) as file:
+                file.write(b"slow and ")
+                file.flush()
+                has_begun.set()
+                may_end.wait(20.0)
+                file.write(b"late")
+        except ActsError as error:
+            failures.append(error)
+
+    slow = threading.Thread(target=write_slowly)
+    slow.start()
+    assert has_begun.wait(20.0)
+    with write_whole(path, error=ActsError) as file:
+        file.write(b"quick")
+    assert path.read_bytes() == b"quick"
+    may_end.set()
+    slow.join(20.0)
+    assert not failures
+    assert path.read_bytes() == b"slow and late"
+    assert [one.name for one in tmp_path.iterdir()] == ["text"]
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from array import array
 from collections.abc import Callable, Sequence
@@ -63,6 +64,9 @@ class BaselineServices:
         self._tracker: BaselineTracker
         self._published: Baseline | None = None
         self._pace = Pace()
+        # Between calibrations that are being stored, on threads of their own; and the last of them.
+        self._storing = threading.Lock()
+        self._newest: Baseline | None = None
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
@@ -131,10 +135,10 @@ class BaselineServices:
             return self._answer(response, False, str(error))
         # In force even where the file cannot be written.
         self._publish(baseline)
-        path = self._path
+        path, self._newest = self._path, baseline
         try:
             if path is not None:
-                within_patience(lambda: baseline.save(path), SettingsError, f"{path}: storing the baseline")
+                within_patience(lambda: self._store(baseline, path), SettingsError, f"{path}: storing the baseline")
         except ActsError as error:
             return self._answer(response, False, f"calibrated until the driver ends, but not stored: {error}")
         noise = float(np.median(baseline.noise_counts[baseline.valid]))
@@ -145,6 +149,12 @@ class BaselineServices:
             f"calibrated {int(baseline.valid.sum())} of {baseline.valid.size} taxels, noise {noise:.2f} counts "
             f"(median){stored}",
         )
+
+    def _store(self, baseline: Baseline, path: Path) -> None:
+        """Write the file, after an older calibration that a slow disk holds up, and not after a newer one."""
+        with self._storing:
+            if baseline is self._newest:
+                baseline.save(path)
 
     def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:

@@ -279,6 +279,35 @@ def test_a_calibration_that_cannot_be_stored_is_told_and_the_node_goes_on(
     rig.status_until(lambda status: status.get("baseline") == "calibration", "the report")
 
 
+def test_a_calibration_that_a_slow_disk_holds_up_does_not_replace_a_newer_one(
+    rig: Rig, stream: Stream, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "skin.npz"
+    is_back = threading.Event()
+    stored: list[SavedBaseline] = []
+    save = SavedBaseline.save
+
+    def save_slowly(baseline: SavedBaseline, to: Path) -> None:
+        stored.append(baseline)
+        if len(stored) == 1:
+            is_back.wait(20.0)
+        save(baseline, to)
+
+    monkeypatch.setattr(SavedBaseline, "save", save_slowly)
+    start(rig, stream, path)
+    stream.start()
+    ask_until(rig, "calibrate", lambda answer: "takes longer than 0.5 s" in answer.message, "a calibration")
+    stream.field = np.full(SIZE, 45, dtype=np.uint16)
+    rig.spin_until(lambda: bool(rig.samples) and min(rig.samples[-1].counts) >= 45, "the new readings")
+    sent = stream.sent
+    rig.spin_until(lambda: stream.sent > sent + 300, "three seconds of them")
+    ask_with_frames(rig, "calibrate")
+    is_back.set()
+    rig.spin_until(lambda: not [one for one in threading.enumerate() if one.name == "acts_background"], "the files")
+    assert SavedBaseline.load(path, ROWS, COLS).counts[0, 0] == pytest.approx(45.5, abs=0.5)
+    assert [one.name for one in tmp_path.iterdir() if "npz" in one.name] == ["skin.npz"]
+
+
 def test_a_slow_board_can_be_tared_at_any_time(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     stream.frame_s = 0.7
     start(rig, stream, tmp_path / "none.npz")
