@@ -19,6 +19,7 @@ from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, 
 from acts_driver.board.layout import BoardLayout
 from acts_driver.board.model_file import BoardModelFile
 from acts_driver.board.parameters import BoardParameters
+from acts_driver.board.words import another_board, other_version, settings_in_words
 
 FIRMWARE = (0, 1)
 """Major and minor version of the firmware that this driver belongs to; any patch version will do."""
@@ -71,6 +72,12 @@ class BoardSession:
         See `acts_core.runtime.LogCallback`.
     on_change : callable
         Called with the status when anything but times and counters in it has changed; from any thread.
+
+    Attributes
+    ----------
+    status : BoardStatus
+    replacements : int
+        How often another board answered than the one before.
     """
 
     def __init__(
@@ -108,6 +115,7 @@ class BoardSession:
         self._thread = threading.Thread(target=self._run, name="acts_board", daemon=True)
         self._told = ""
         self.status = BoardStatus()
+        self.replacements = 0
 
     def start(self) -> None:
         """Begin the dialogue; the source is open."""
@@ -268,15 +276,23 @@ class BoardSession:
         """Update the status by a state that the board has told since it was asked, at `asked_s` [s]."""
         if self._has_begun_anew(state, asked_s):
             self._own = state.settings
-            self._layout.begin_anew()
-            self._settled = None
-            self._refused = None
+            self._begin_anew(state)
         self._seen, self._seen_s = state, time.monotonic()
         if state.firmware_version[:2] != FIRMWARE:
-            self._set(BoardStatus(state, is_wrong_version=True, problem=_other_version(state)))
+            self._set(BoardStatus(state, is_wrong_version=True, problem=other_version(state, FIRMWARE)))
             return
         problem = self._refusal if self._refused is not None else self._mismatch(state)
         self._set(BoardStatus(state, problem=problem))
+
+    def _begin_anew(self, state: BoardState) -> None:
+        """Note that the board was replaced or reset, and so has lost what it was told."""
+        seen, self._seen, self._seen_s = self._seen, state, time.monotonic()
+        if seen is not None and seen.board_id != state.board_id:
+            self.replacements += 1
+            self._log("warning", another_board(seen, state))
+        self._layout.begin_anew()
+        self._settled = None
+        self._refused = None
 
     def _has_begun_anew(self, state: BoardState, asked_s: float) -> bool:
         """Whether the board was replaced or reset since the last state, and so has lost its settings."""
@@ -370,27 +386,6 @@ class BoardSession:
         if problem and problem != self._told:
             self._log(level, problem)
         self._told = problem
-
-
-def settings_in_words(settings: BoardSettings) -> str:
-    """Settings for a person, in one line."""
-    rate = f"at most {1e6 / settings.frame_period_us:g} Hz" if settings.frame_period_us else "as fast as it can"
-    return (
-        f"{settings.rows} x {settings.cols}, {settings.scheme}, M = {settings.frame_size}, {rate}, threshold "
-        f"{settings.threshold_counts}, output {settings.output}, LED {settings.led}"
-    )
-
-
-def version_in_words(state: BoardState) -> str:
-    """A firmware version for a person."""
-    return ".".join(map(str, state.firmware_version))
-
-
-def _other_version(state: BoardState) -> str:
-    return (
-        f"the board's firmware is {version_in_words(state)}, this driver needs {FIRMWARE[0]}.{FIRMWARE[1]}.x: load the "
-        "firmware of the driver's release onto the board; its frames are not published"
-    )
 
 
 def _lasting(status: BoardStatus) -> BoardStatus:

@@ -89,6 +89,7 @@ class Intake:
         self._report = DriverReport(source, self.reader, decoder, self.stream, size, self.session, log)
         self._backlog = BacklogWatch()
         self._restarts_told = 0
+        self._replacements_seen = 0
         self._wrong_size_told = (0, 0)
         self._wrong_sizes_due = RateLimit(_WRONG_SIZES_TOLD_HZ)
 
@@ -133,6 +134,9 @@ class Intake:
         session = self.session
         if not self._stale_frames.is_over:
             frames = self._stale_frames.new(frames, is_known=session is None or session.has_verdict)
+        if session is not None and session.replacements != self._replacements_seen:
+            self._replacements_seen = session.replacements
+            self.stream.board_was_replaced()
         accepted = self.stream.accept(frames, arrival_ns, self._source.waits)
         if self._backlog.lasts(arrival_ns, self.stream.clock.delay_ns):
             self.reader.discard()

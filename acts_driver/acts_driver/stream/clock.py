@@ -101,6 +101,10 @@ class ClockFilter:
         self._last_arrival_ns = 0
         self._last_stamp_ns = None
 
+    def board_was_replaced(self) -> None:
+        """Tell that the next frame is of another board: the estimate begins anew with it."""
+        self._envelope = None
+
     def step(self, board_us: int, arrival_ns: int) -> int:
         """Update by one frame; see `step_batch`."""
         return self.step_batch((board_us,), arrival_ns)[0]

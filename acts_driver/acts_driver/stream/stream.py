@@ -58,6 +58,10 @@ class FrameStream:
         if self.has_board_clock:
             self.statistics.reconnected()
 
+    def board_was_replaced(self) -> None:
+        """Tell that the next frame is of another board; the clocks of two boards that began together are much alike."""
+        self.clock.board_was_replaced()
+
     def accept(
         self, frames: Sequence[SampleFrame], arrival_ns: int, is_behind: Callable[[], bool] = lambda: False
     ) -> list[tuple[SampleFrame, int]]:

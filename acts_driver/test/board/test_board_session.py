@@ -221,6 +221,37 @@ def test_an_answer_that_is_read_late_is_of_no_restarted_board(monkeypatch: pytes
     assert link.settings.m == 55, "its own settings were not mistaken"
 
 
+class OtherLink(BoardLink):
+    """A way to an imagined board, or to another one in its place."""
+
+    def __init__(self) -> None:
+        super().__init__(lambda data, timeout_s: None)
+        self.board_id, self.settings = 7, BoardSettings(m=55)
+        self.started_s = time.monotonic() - 100.0
+
+    def query(self) -> Reply:
+        uptime_us = int((time.monotonic() - self.started_s) * 1e6)
+        state = BoardState((*FIRMWARE, 0), self.board_id, uptime_us, self.settings, False, False, NO_MODEL, 0, 0, 0, 0)
+        return Reply(0, PacketType.QUERY, ReplyStatus.OK, 0, state)
+
+
+def test_another_board_in_the_place_of_the_one_before_is_told() -> None:
+    link, log = OtherLink(), []
+    session = BoardSession(link, BoardParameters(), size=SIZE, log=lambda level, words: log.append((level, words)))
+    session.ask()
+    # The same one, reset.
+    link.started_s = time.monotonic()
+    session.ask()
+    assert (session.replacements, log) == (0, [])
+    link.board_id = 8
+    for _ in range(2):
+        session.ask()
+    assert session.replacements == 1
+    [(level, words)] = log
+    assert level == "warning"
+    assert words.startswith("the port leads to board 8 now, it was board 7 before: ")
+
+
 def test_packets_of_another_version_are_named(tmp_path: Path) -> None:
     with VirtualBoard(tmp_path / "board", "--fault", "version:2") as board:
         host = Host(board.link, reply_timeout_s=0.05)

@@ -1,0 +1,39 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is told of a board, in words."""
+
+from __future__ import annotations
+
+from acts_core.wire import BoardSettings, BoardState
+
+
+def settings_in_words(settings: BoardSettings) -> str:
+    """Settings for a person, in one line."""
+    rate = f"at most {1e6 / settings.frame_period_us:g} Hz" if settings.frame_period_us else "as fast as it can"
+    return (
+        f"{settings.rows} x {settings.cols}, {settings.scheme}, M = {settings.frame_size}, {rate}, threshold "
+        f"{settings.threshold_counts}, output {settings.output}, LED {settings.led}"
+    )
+
+
+def version_in_words(state: BoardState) -> str:
+    """A firmware version for a person."""
+    return ".".join(map(str, state.firmware_version))
+
+
+def other_version(state: BoardState, needed: tuple[int, int]) -> str:
+    """That the firmware is of another version than the driver needs, major and minor."""
+    return (
+        f"the board's firmware is {version_in_words(state)}, this driver needs {needed[0]}.{needed[1]}.x: load the "
+        "firmware of the driver's release onto the board; its frames are not published"
+    )
+
+
+def another_board(before: BoardState, now: BoardState) -> str:
+    """That the port leads to another board than before."""
+    return (
+        f"the port leads to board {now.board_id} now, it was board {before.board_id} before: if its skin is another "
+        "one, calibrate or tare, as the baseline is still of the one before; the port "
+        f"serial:{before.board_id} would take that board alone"
+    )
