@@ -308,7 +308,11 @@ class BoardSession:
         assert self._own is not None
         wanted = self._parameters.wanted(self._own)
         if state.settings != wanted and self._settled != (wanted, state.settings):
+            asked_s = time.monotonic()
             state = self._link.configure(wanted).state
+            if self._has_begun_anew(state, asked_s):
+                # Reset between question and command: what it has by itself is not what it was told just now.
+                self._begin_anew(state)
             # A board may round a setting; it is not sent again and again then.
             self._settled = (wanted, state.settings)
             self._log("info", f"the board has taken its settings: {settings_in_words(state.settings)}")

@@ -222,17 +222,36 @@ def test_an_answer_that_is_read_late_is_of_no_restarted_board(monkeypatch: pytes
 
 
 class OtherLink(BoardLink):
-    """A way to an imagined board, or to another one in its place."""
+    """A way to an imagined board, or to another one in its place, that may be reset just before it is told settings."""
 
     def __init__(self) -> None:
         super().__init__(lambda data, timeout_s: None)
         self.board_id, self.settings = 7, BoardSettings(m=55)
         self.started_s = time.monotonic() - 100.0
+        self.is_reset_by_configuring = False
 
     def query(self) -> Reply:
         uptime_us = int((time.monotonic() - self.started_s) * 1e6)
         state = BoardState((*FIRMWARE, 0), self.board_id, uptime_us, self.settings, False, False, NO_MODEL, 0, 0, 0, 0)
         return Reply(0, PacketType.QUERY, ReplyStatus.OK, 0, state)
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        if self.is_reset_by_configuring:
+            self.is_reset_by_configuring, self.started_s = False, time.monotonic()
+        self.settings = settings
+        return self.query()
+
+
+def test_what_a_board_is_told_that_was_reset_in_the_midst_of_the_dialogue_is_not_its_own() -> None:
+    link = OtherLink()
+    link.is_reset_by_configuring = True
+    session = BoardSession(link, BoardParameters(m=64), size=SIZE, log=lambda level, words: None)
+    session.start()
+    wait_for(lambda: link.settings.m == 64, "the settings")
+    session.ask()
+    session.change(BoardParameters())
+    session.stop()
+    assert link.settings.m == 55
 
 
 def test_another_board_in_the_place_of_the_one_before_is_told() -> None:
