@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -16,10 +17,13 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from acts_core.errors import RecordingError
+from acts_core.errors import PacketError, RecordingError
+from acts_core.runtime import SequenceNumbers
 from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions, message_class
+from acts_ros.bags.skin_topics import SAMPLES
 from acts_ros.bags.writing import BagWriter
+from acts_ros.messages import sequence_of
 
 try:
     from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
@@ -31,6 +35,9 @@ except ImportError:  # Humble
 _ENDED_INTERVALS = 20
 _ENDED_S = 1.0
 _REGULAR_MESSAGES = 10
+
+# Of the others that have the number of a frame not every frame has a message.
+_OF_EVERY_FRAME = (SAMPLES, "acts_msgs/msg/Contact")
 
 
 @dataclass
@@ -56,6 +63,22 @@ class TopicRecord:
     first_s: float = 0.0
     last_s: float = 0.0
     _gaps: list[tuple[float, float]] = field(default_factory=list)
+    _numbers: SequenceNumbers = field(default_factory=SequenceNumbers)
+
+    @property
+    def missing(self) -> int | None:
+        """Frames missing by the numbers of the messages, wherever they were lost; None for messages without numbers."""
+        return self._numbers.lost if self.message_type in _OF_EVERY_FRAME else None
+
+    def number(self, data: bytes) -> None:
+        """Count what is missing before a serialised message.
+
+        The middleware does not report what falls out of a full queue, as while a slow disk holds up the recorder.
+        """
+        if self.message_type in _OF_EVERY_FRAME:
+            # Whoever reads the bag is told of what is no such message.
+            with suppress(PacketError):
+                self._numbers.step(sequence_of(data))
 
     def add(self, now_s: float) -> None:
         """Count a message that is received now."""
@@ -194,6 +217,7 @@ class Recorder:
 
     def _on_message(self, record: TopicRecord, handle: Any, data: bytes) -> None:
         self._bag.write(handle, data)
+        record.number(data)
         record.add(time.monotonic())
 
 

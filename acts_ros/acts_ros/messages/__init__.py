@@ -7,7 +7,7 @@ In come frames, baselines, contacts and regions; out come messages or their byte
 """
 
 from acts_ros.messages.baseline_messages import BaselineFields, baseline_of
-from acts_ros.messages.cdr import ContactFields, header_of, read_contact, write_contact
+from acts_ros.messages.cdr import ContactFields, header_of, read_contact, sequence_of, write_contact
 from acts_ros.messages.contacts_cdr import (
     ContactsFields,
     SeriesFields,
@@ -43,6 +43,7 @@ __all__ = [
     "read_regions",
     "read_series",
     "seconds_of",
+    "sequence_of",
     "set_stamp",
     "skin_frame",
     "stamp_ns_of",

@@ -71,6 +71,22 @@ def header_of(data: bytes) -> tuple[int, str]:
     return stamp_ns, frame_id
 
 
+def sequence_of(data: bytes) -> int:
+    """Number of the frame of a serialised message that has it after its header, as samples and contact.
+
+    Raises
+    ------
+    PacketError
+        When the bytes are no such message.
+    """
+    _, _, order, at = header_parts(data)
+    try:
+        (sequence,) = LENGTHS[order].unpack_from(data, ENCAPSULATION_BYTES + at + -at % LENGTHS[order].size)
+    except struct.error as error:
+        raise PacketError(f"message of {len(data)} bytes cannot be read: {error}") from error
+    return int(sequence)
+
+
 def write_contact(contact: ContactFields) -> bytes:
     """Serialise a contact, as rclpy does it on a little-endian machine.
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
-from acts_msgs.msg import Contact, Contacts
-from acts_ros.messages import ContactFields, header_of, read_contact, write_contact
+from acts_msgs.msg import Contact, Contacts, TactileSamples
+from acts_ros.messages import ContactFields, header_of, read_contact, sequence_of, write_contact
 
 STAMPS_NS = st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1)
 NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=20)
@@ -67,6 +67,16 @@ def test_a_contact_is_written_as_rclpy_writes_it(contact: ContactFields) -> None
 @given(contacts())
 def test_a_contact_of_rclpy_is_read(contact: ContactFields) -> None:
     assert repr(read_contact(serialize_message(message_of(contact)))) == repr(contact)
+
+
+@given(st.sampled_from([Contact, TactileSamples]), st.integers(0, 2**32 - 1), NAMES)
+def test_the_number_of_a_frame_is_read(kind: type, sequence: int, frame_id: str) -> None:
+    message = kind(sequence=sequence)
+    message.header.frame_id = frame_id
+    data = serialize_message(message)
+    assert sequence_of(data) == sequence
+    with pytest.raises(PacketError):
+        sequence_of(data[:16])
 
 
 @given(contacts(), st.data())

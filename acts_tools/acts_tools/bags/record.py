@@ -117,15 +117,28 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
                 bag.flush()
             ended_s = time.monotonic()
         hints = {topic: near_topic(node, topic) for topic in recorder.missing()}
-    _summarise(recorder, bag, hints, started_s, ended_s)
+    summarise(recorder, bag, hints, started_s, ended_s)
     return 0 if recorder.is_complete else 1
 
 
-def _summarise(recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], started_s: float, ended_s: float) -> None:
+def summarise(recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], started_s: float, ended_s: float) -> None:
+    """Say what was recorded and what is missing.
+
+    Parameters
+    ----------
+    recorder : Recorder
+        Closed.
+    bag : BagWriter
+    hints : mapping of str to str
+        Of each topic that never appeared, what may have been meant.
+    started_s, ended_s : float
+        CLOCK_MONOTONIC [s].
+    """
     records = sorted(recorder.records.values(), key=lambda record: record.topic)
     width = max((len(record.topic) for record in records), default=0)
     for record in records:
         lost = "loss not known" if record.lost is None else f"{record.lost} lost"
+        lost += f", {counted(record.missing, 'frame')} missing by their numbers" if record.missing else ""
         _say(f"{record.topic:{width}}  {record.received:8d} messages  {lost}")
     for topic in recorder.missing():
         _say(f"never appeared: {topic}, no publisher was found{hints[topic]}")

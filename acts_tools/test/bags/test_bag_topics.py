@@ -11,6 +11,7 @@ import signal
 import time
 from array import array
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from std_msgs.msg import String
 
 from acts_core.errors import RecordingError
 from acts_msgs.msg import Contact, TactileSamples
+from acts_ros.bags import qos
 from acts_ros.bags import recorder as recorder_module
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import open_bag
@@ -32,6 +34,7 @@ from acts_ros.bags.recorder import Recorder
 from acts_ros.bags.writing import BagWriter
 from acts_ros.qos import LATCHED, STREAM
 from acts_tools.bags.player import Player
+from acts_tools.bags.record import summarise
 from acts_tools.testing.probe import Probe
 
 pytestmark = pytest.mark.slow
@@ -308,3 +311,29 @@ def test_a_weaker_publisher_that_comes_later_is_recorded_too(probe: Probe, tmp_p
 
     record_here(probe, tmp_path / "bag", None, until)
     assert any(b"2\0" in data for topic, data in contents(tmp_path / "bag") if topic == "/word")
+
+
+def test_messages_that_were_not_taken_in_time_are_missing_by_their_numbers(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As while a slow disk holds up the recorder: the middleware reports nothing of what falls out of its queue."""
+    monkeypatch.setattr(qos, "_SUBSCRIPTION_DEPTH", 16)
+    publisher = probe.node.create_publisher(Contact, "/plate/contact", QoSProfile(depth=200))
+    with closing(BagWriter(tmp_path / "bag")) as bag:
+        recorder = Recorder(probe.node, bag, ["/plate/contact"], print)
+
+        def is_matched() -> bool:
+            recorder.discover()
+            return publisher.get_subscription_count() > 0
+
+        probe.wait_for(is_matched, TIMEOUT_S, "the recorder")
+        record = recorder.records["/plate/contact"]
+        publisher.publish(Contact(sequence=0))
+        probe.wait_for(lambda: record.received == 1, TIMEOUT_S, "the first message")
+        for number in range(1, 101):
+            publisher.publish(Contact(sequence=number))
+        probe.wait_for(lambda: record.received + (record.missing or 0) == 101, TIMEOUT_S, "the last message")
+        assert record.received < 101
+        summarise(recorder, bag, {}, time.monotonic(), time.monotonic())
+    words = rf"/plate/contact +{record.received} messages .*, {101 - record.received} frames missing by their numbers"
+    assert re.search(words, capsys.readouterr().out)
