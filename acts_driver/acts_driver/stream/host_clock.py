@@ -15,8 +15,16 @@ _STEP_NS = 40_000_000
 _AT_ONCE_NS = 1_000_000
 
 
+def since_boot_ns() -> int:
+    """The steady clock that goes on while the machine is suspended [ns]."""
+    return time.clock_gettime_ns(time.CLOCK_BOOTTIME)
+
+
 class HostClock:
     """Compares the system's clock, by which arrivals and stamps are told, with the steady one.
+
+    The steady clock goes on while the machine is suspended, as the system's does: that is no setting of the clock, and
+    frames that a board measured before it, and that are read after it, are as old as they are.
 
     Parameters
     ----------
@@ -30,7 +38,7 @@ class HostClock:
     """
 
     def __init__(
-        self, system_ns: Callable[[], int] = time.time_ns, steady_ns: Callable[[], int] = time.monotonic_ns
+        self, system_ns: Callable[[], int] = time.time_ns, steady_ns: Callable[[], int] = since_boot_ns
     ) -> None:
         self._system_ns = system_ns
         self._steady_ns = steady_ns

@@ -3,6 +3,8 @@
 
 """The system's clock is set while frames come: stamps follow it with the next frame."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -86,6 +88,32 @@ def test_a_clock_that_is_set_while_the_port_is_lost_makes_no_restart_of_the_boar
     stream.reconnected()
     accept(5000, 20_000)
     assert (stream.statistics.restarts, stream.statistics.lost) == (1, 3000)
+
+
+def test_frames_from_before_a_suspension_of_the_machine_are_as_old_as_they_are(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clocks = Clocks()
+    monkeypatch.setattr(time, "clock_gettime_ns", lambda clock: {time.CLOCK_BOOTTIME: clocks.steady_ns}[clock])
+    stream = FrameStream(4, 4, host_clock=HostClock(lambda: clocks.system_ns))
+
+    def delay_ns(number: int, board_ms: int) -> int:
+        frame = SampleFrame(number, 1000 * board_ms, 0, Scheme.UNIFORM, 4, 4, 0, NONE, NONE)
+        [(_, stamp_ns)] = stream.accept([frame], clocks.system_ns)
+        return clocks.system_ns - stamp_ns
+
+    for number in range(3000):
+        clocks.run(MS)
+        assert delay_ns(number, 7000 + number) < MS // 10
+    # The board goes on, and keeps the oldest of its frames.
+    clocks.run(60_000 * MS)
+    for number in range(3000, 3100):
+        age_ms = 60_000 - (number - 2999)
+        assert abs(delay_ns(number, 7000 + number) - age_ms * MS) < MS
+    for number in range(62_999, 63_999):
+        assert delay_ns(number, 7000 + number) < MS
+        clocks.run(MS)
+    assert (stream.clock.state.resets, stream.statistics.restarts) == (0, 0)
 
 
 def test_a_clock_that_is_made_to_run_faster_was_not_set() -> None:
