@@ -20,6 +20,8 @@ from acts_driver.replay.recordings import Recording
 _LATE_MAX_US = 250_000
 _TOGETHER_MAX = 64
 _FIRST_STEP_US = 1000
+# Silence of an open port is an error after a second.
+_PAUSE_US = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -129,6 +131,8 @@ class ReplaySource:
             time.sleep(READ_TIMEOUT_S)
             return b""
         wait_us = zero_us + coming.frame.board_us - _now_us()
+        is_pause = wait_us > _PAUSE_US
+        self.silence = f"its next frame is due in {wait_us * 1e-6:.0f} s" if is_pause else ""
         if wait_us > READ_TIMEOUT_S * 1e6:
             time.sleep(READ_TIMEOUT_S)
             return b""

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -319,6 +320,26 @@ def test_without_a_loop_the_end_is_told() -> None:
     assert [one.sequence for one in StreamDecoder().feed(data)] == [0, 1]
     assert source.silence == "the recording has ended"
     assert source.read() == b""
+
+
+def test_a_pause_of_the_recording_is_told() -> None:
+    # As of a robot whose clock began in 1970, and was set while it recorded.
+    recorded = [frame(0, board_us=0), frame(1, board_us=1000), frame(2, board_us=1_600_000_000_000_000)]
+    source = ReplaySource("test", lambda: FixedRecording(recorded), delay_s=0.0)
+    source.open()
+    source.begin()
+    frames: list[SampleFrame] = []
+    decoder = StreamDecoder()
+
+    def have_come() -> bool:
+        frames.extend(decoder.feed(source.read()))
+        return len(frames) == 2
+
+    wait_for(have_come, "the frames before the pause")
+    assert source.silence == ""
+    assert source.read() == b""
+    assert re.fullmatch(r"its next frame is due in 1\d{9} s", source.silence)
+    source.close()
 
 
 def test_damage_is_told_after_everything_before_it() -> None:

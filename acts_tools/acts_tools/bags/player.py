@@ -19,6 +19,8 @@ from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import Bag
 
 _ACKNOWLEDGE_S = 1.0
+# A pause that nobody who plays a bag takes for its end [s].
+_PAUSE_S = 10.0
 
 
 @dataclass
@@ -69,6 +71,7 @@ class Player:
     ) -> None:
         self.report = PlayReport()
         self._bag = bag
+        self._say = say
         self._publishers: dict[str, Publisher] = {}
         types = bag.topics()
         for topic in types if topics is None else topics:
@@ -113,6 +116,13 @@ class Player:
                 first_ns = stamp_ns
             # Every deadline is relative to the start, so that delays do not accumulate.
             deadline_s = started_s + (stamp_ns - first_ns) * 1e-9 / rate
+            pause_s = deadline_s - time.monotonic()
+            if pause_s > _PAUSE_S:
+                after_s = (stamp_ns - first_ns) * 1e-9
+                self._say(
+                    f"paused: the next message is due in {pause_s:.0f} s, {after_s:.0f} s after the first; if a clock "
+                    "was set while the bag was recorded, --start-offset leaves out what is before"
+                )
             if not sleep_until(deadline_s):
                 return False
             self.report.worst_lateness_s = max(self.report.worst_lateness_s, time.monotonic() - deadline_s)

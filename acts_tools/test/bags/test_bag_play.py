@@ -74,6 +74,16 @@ def test_messages_are_played_at_their_times_by_absolute_deadlines(
         assert player.report.published == 7
 
 
+def test_a_pause_is_told(probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # As of a robot whose clock began in 1970, and was set while it recorded.
+    make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String"}, [1000, 6000, 1_600_000_000_000], monkeypatch)
+    told: list[str] = []
+    with open_bag(tmp_path / "bag") as bag:
+        assert Player(probe.node, bag, ["/a"], told.append).play(1.0, lambda deadline_s: True)
+    (words,) = told
+    assert re.match(r"paused: the next message is due in 1\d{9} s, 1599999999 s after the first; ", words)
+
+
 @pytest.mark.parametrize("is_unfinished", [False, True])
 @pytest.mark.parametrize(("topic", "between_ms"), [("/a", 11), ("/b", 10)])
 def test_it_begins_at_an_offset_from_the_beginning_of_the_bag(
