@@ -145,6 +145,8 @@ class Player:
         )
 
     def finish(self) -> None:
-        """Wait until reliable subscribers have received the last messages."""
+        """Wait until reliable subscribers have received the last messages, for a second at most in all."""
+        deadline_s = time.monotonic() + _ACKNOWLEDGE_S
         for publisher in self._publishers.values():
-            publisher.wait_for_all_acked(Duration(nanoseconds=int(_ACKNOWLEDGE_S * 1e9)))
+            left_s = max(deadline_s - time.monotonic(), 0.0)
+            publisher.wait_for_all_acked(Duration(nanoseconds=int(left_s * 1e9)))

@@ -11,9 +11,11 @@ import time
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from bag_commands import TIMEOUT_S, acts
+from rclpy.duration import Duration
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
@@ -82,6 +84,29 @@ def test_a_pause_is_told(probe: Probe, tmp_path: Path, monkeypatch: pytest.Monke
         assert Player(probe.node, bag, ["/a"], told.append).play(1.0, lambda deadline_s: True)
     (words,) = told
     assert re.match(r"paused: the next message is due in 1\d{9} s, 1599999999 s after the first; ", words)
+
+
+def test_subscribers_that_hang_do_not_hold_up_the_end_topic_by_topic(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now_s = 100.0
+
+    class Unheard:
+        """A publisher whose subscriber hangs."""
+
+        def wait_for_all_acked(self, timeout: Duration) -> bool:
+            nonlocal now_s
+            now_s += timeout.nanoseconds * 1e-9
+            return False
+
+    topics = {f"/topic_{number}": "std_msgs/msg/String" for number in range(20)}
+    make_bag(tmp_path / "bag", topics, [1000 + number for number in range(20)], monkeypatch)
+    with open_bag(tmp_path / "bag") as bag:
+        player = Player(probe.node, bag, None, print)
+        monkeypatch.setattr(player, "_publishers", dict.fromkeys(topics, Unheard()))
+        monkeypatch.setattr("acts_tools.bags.player.time", SimpleNamespace(monotonic=lambda: now_s))
+        player.finish()
+    assert now_s - 100.0 == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("is_unfinished", [False, True])
