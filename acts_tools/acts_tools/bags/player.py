@@ -77,7 +77,11 @@ class Player:
         for topic in types if topics is None else topics:
             if topic not in types:
                 raise RecordingError(f"the bag has no topic '{topic}' (it has: {', '.join(sorted(types)) or 'none'})")
+            # As where two bags were merged; the messages do not tell which of them they are of.
+            kinds = {connection.msgtype for connection in bag.connections if connection.topic == topic}
             try:
+                if len(kinds) > 1:
+                    raise RecordingError(f"it was recorded with several types: {', '.join(sorted(kinds))}")
                 kind = message_class(types[topic])
                 bag.check_definition(topic)
             except RecordingError as error:

@@ -9,6 +9,7 @@ import re
 import signal
 import time
 from collections.abc import Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,7 +18,7 @@ import pytest
 from bag_commands import TIMEOUT_S, acts
 from rclpy.duration import Duration
 from rclpy.serialization import serialize_message
-from std_msgs.msg import String
+from std_msgs.msg import Int32, String
 
 from acts_core.errors import RecordingError
 from acts_ros.bags import qos
@@ -107,6 +108,21 @@ def test_subscribers_that_hang_do_not_hold_up_the_end_topic_by_topic(
         monkeypatch.setattr("acts_tools.bags.player.time", SimpleNamespace(monotonic=lambda: now_s))
         player.finish()
     assert now_s - 100.0 == pytest.approx(1.0)
+
+
+def test_a_topic_of_several_types_is_named_and_the_others_are_played(probe: Probe, tmp_path: Path) -> None:
+    """As in a bag that two were merged into."""
+    data = serialize_message(String(data="a text that is longer than any number"))
+    with closing(BagWriter(tmp_path / "bag")) as bag:
+        for topic, kind in (("/b", "std_msgs/msg/String"), ("/a", "std_msgs/msg/String"), ("/a", "std_msgs/msg/Int32")):
+            handle = bag.add_topic(topic, kind, *Definitions().describe(kind), [])
+            bag.write(handle, data if kind == "std_msgs/msg/String" else serialize_message(Int32(data=5)))
+    said: list[str] = []
+    with open_bag(tmp_path / "bag") as opened:
+        player = Player(probe.node, opened, None, said.append)
+        assert player.play(1.0, lambda deadline_s: True)
+    assert player.report.published == 1
+    assert said == ["not played: /a: it was recorded with several types: std_msgs/msg/Int32, std_msgs/msg/String"]
 
 
 @pytest.mark.parametrize("is_unfinished", [False, True])
