@@ -85,7 +85,7 @@ class Reader:
         self._log = log
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="acts_reader", daemon=True)
-        self._consumer_error = ""
+        self._consumer_errors_told: set[tuple[type, str, int]] = set()
         self._discards = False
         self._discarded_s = -_DISCARDED_S
         self._is_asked = False
@@ -199,11 +199,20 @@ class Reader:
             self._on_frames(frames, arrival_ns)
         except Exception as error:  # noqa: BLE001 - reading goes on, whatever the consumer does
             self.consumer_errors += 1
-            message = f"frames could not be handed on: {type(error).__name__}: {error}"
-            # Once for each kind: at 1 kHz a log line a frame would be an error of its own.
-            if message != self._consumer_error:
-                self._consumer_error = message
-                self._log("error", message)
+            # Once for each kind: at 1 kHz a log line a frame would be an error of its own, and numbers in the words
+            # make each of them another one.
+            kind = (type(error), *_place_of(error))
+            if kind not in self._consumer_errors_told:
+                self._consumer_errors_told.add(kind)
+                self._log("error", f"frames could not be handed on: {type(error).__name__}: {error}")
+
+
+def _place_of(error: Exception) -> tuple[str, int]:
+    """File and line that raised it."""
+    at = error.__traceback__
+    while at is not None and at.tb_next is not None:
+        at = at.tb_next
+    return ("", 0) if at is None else (at.tb_frame.f_code.co_filename, at.tb_lineno)
 
 
 def _told(error: Exception) -> str:

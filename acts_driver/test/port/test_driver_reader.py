@@ -233,6 +233,27 @@ def test_a_failing_consumer_does_not_end_reading(board: PtyBoard, collector: Col
     assert collector.reader.connected
 
 
+def test_a_consumer_that_fails_in_other_words_each_time_does_not_fill_the_log(board: PtyBoard) -> None:
+    def take(frames: list[SampleFrame], arrival_ns: int) -> None:
+        if frames[-1].sequence % 2:
+            raise KeyError(frames[-1].sequence)
+        raise ValueError(f"no room for frame {frames[-1].sequence}")
+
+    log: list[str] = []
+    source = SerialSource(str(board.path))
+    reader = Reader(source, StreamDecoder(), take, log=lambda level, message: log.append(message))
+    source.open()
+    reader.start(is_open=True)
+    for k in range(10):
+        board.write_frames(frame(k))
+        wait_for(lambda: reader.consumer_errors == k + 1, "the failure")  # noqa: B023
+    reader.stop()
+    assert log == [
+        "frames could not be handed on: ValueError: no room for frame 0",
+        "frames could not be handed on: KeyError: 1",
+    ]
+
+
 def test_a_reader_tells_when_all_that_has_arrived_is_decoded(board: PtyBoard, collector: Collector) -> None:
     goes_on = threading.Event()
     take = collector.take
