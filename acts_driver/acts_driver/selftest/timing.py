@@ -64,7 +64,8 @@ def measure_timing(record: FrameRecord, *, has_board_clock: bool, frame_period_u
     goes_on = steps < _RESTART_FROM
     restarts = int((~goes_on).sum())
     steps[~goes_on] = 1
-    lost = int((steps - 1).sum())
+    # A frame that comes twice makes up for none that is missing.
+    lost = int(np.maximum(steps - 1, 0).sum())
     arrivals_us = np.array(record.arrivals_ns, dtype=np.float64) / 1000
     board_us = np.array([frame.board_us for frame in frames], dtype=np.float64)
     duration_us = np.array([frame.duration_us for frame in frames], dtype=np.float64)

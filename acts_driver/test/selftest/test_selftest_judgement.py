@@ -280,6 +280,17 @@ def test_a_board_without_clock_and_durations_whose_numbers_begin_anew() -> None:
     assert faults(findings).keys() == {"frame numbers"}
 
 
+def test_a_frame_that_comes_twice_makes_up_for_none_that_is_missing() -> None:
+    record = Skin(shape=(16, 16)).record(1000, touched=False)
+    told = FrameRecord(16, 16)
+    for k, (frame, arrival_ns) in enumerate(zip(record.frames, record.arrivals_ns, strict=True)):
+        for _ in range({10: 2, 20: 0}.get(k, 1)):
+            told.add(frame, arrival_ns)
+    timing = measure_timing(told, has_board_clock=True)
+    assert (timing.lost, timing.restarts) == (1, 0)
+    assert "lost frames" in faults(judge_timing(timing, THRESHOLDS))
+
+
 def test_a_restart_within_the_test_changes_neither_rate_nor_jitter() -> None:
     record = Skin(shape=(16, 16)).record(1000, touched=False)
     told = FrameRecord(16, 16)
