@@ -79,6 +79,7 @@ class ReplaySource:
         self._recording: Recording | None = None
         self._opening: Future[Recording] | None = None
         self._pass: Iterator[SampleFrame] = iter(())
+        self._zero_us: int | None = None
         self.silence = ""
 
     @property
@@ -105,7 +106,8 @@ class ReplaySource:
         self._opening = None
         self._recording = opening.result()
         self._in_pass = 0
-        self._zero_us: int | None = None
+        has_begun = self._zero_us is not None
+        self._zero_us = None
         self._offset_us = 0
         self._board_us = -1
         self._step_us = _FIRST_STEP_US
@@ -115,6 +117,9 @@ class ReplaySource:
         self.silence = "it begins when the driver is activated"
         self._start_pass()
         self._prepare()
+        if has_begun:
+            # Lost and opened again: nobody tells it a second time.
+            self.begin()
 
     def begin(self) -> None:
         """Let the frames come; a second time changes nothing."""

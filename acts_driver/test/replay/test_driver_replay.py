@@ -342,6 +342,28 @@ def test_a_pause_of_the_recording_is_told() -> None:
     source.close()
 
 
+def test_a_recording_that_is_lost_and_opened_again_goes_on() -> None:
+    passes = 0
+
+    class OnALostDrive:
+        def frames(self) -> Iterator[SampleFrame]:
+            nonlocal passes
+            passes += 1
+            if passes == 2:
+                raise OSError(5, "Input/output error")
+            yield from (frame(k) for k in range(3))
+
+    taken: list[SampleFrame] = []
+    source = ReplaySource("test", OnALostDrive, delay_s=0.0)
+    reader = Reader(source, StreamDecoder(), lambda frames, at_ns: taken.extend(frames), reconnect_s=0.02)
+    source.open()
+    reader.start(is_open=True)
+    source.begin()
+    wait_for(lambda: len(taken) > 6, "frames after the loss")
+    reader.stop()
+    assert reader.reconnects == 1
+
+
 def test_damage_is_told_after_everything_before_it() -> None:
     class Damaged:
         def frames(self) -> Iterator[SampleFrame]:
