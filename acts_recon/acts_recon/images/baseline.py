@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import check_untouched
+from acts_core.array import COUNT_MAX, check_untouched
 from acts_core.kernels import kernel
 
 
@@ -18,7 +18,7 @@ def _subtract(
 ) -> None:
     for i in range(counts.shape[0]):
         # What does not fit is left for the reconstructor to refuse.
-        if i < indices.shape[0] and indices[i] < baseline.shape[0]:
+        if i < indices.shape[0] and indices[i] < baseline.shape[0] and counts[i] <= COUNT_MAX:
             less = np.float32(counts[i]) - baseline[indices[i]] + np.float32(0.5)
             result[i] = np.uint16(less) if less > 0 else np.uint16(0)
         else:

@@ -151,6 +151,18 @@ def test_a_baseline_that_comes_during_a_frame_is_in_force_with_the_next(recovery
     recovery.set_baseline(np.zeros(known.size, np.float32), np.zeros(known.size, np.float32), ~known)
 
 
+def test_what_no_board_reads_is_refused_also_where_the_baseline_would_make_it_possible(recovery: FrameRecovery) -> None:
+    recovery.reset()
+    still = np.zeros(SIDE * SIDE, np.float32)
+    recovery.set_baseline(still + 100, still, still == 0)
+    # As of a converter of 12 bits.
+    with pytest.raises(ArrayError, match="count 1100: the board reads 0 to 1023"):
+        recovery.step(frame(0, 1100), 0)
+    recovery.step(frame(1, 1023), 1_000_000)
+    assert recovery.recovery.image.max() == 923
+    recovery.set_baseline(still, still, still == 0)
+
+
 def test_a_baseline_is_subtracted(recovery: FrameRecovery) -> None:
     recovery.reset()
     still = np.zeros(SIDE * SIDE, np.float32)
