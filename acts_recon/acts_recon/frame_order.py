@@ -31,10 +31,12 @@ class FrameOrder:
     ----------
     changes : int
         How often a frame was of the other one of two sources.
+    restarts : int
+        How often the stream began anew otherwise.
     """
 
     def __init__(self) -> None:
-        self.changes = 0
+        self.changes = self.restarts = 0
         self._sequence = -1
         self._time_us = -1
         # Where numbers went back from, and for how many frames it is still remembered.
@@ -64,6 +66,7 @@ class FrameOrder:
         is_other = self._other is not None and _is_nearer(this, self._other, last)
         self.changes += is_other
         if is_other or _ahead(this, last) <= 0:
+            self.restarts += not is_other
             self._other, self._left = last, _NEAR
             return True
         self._left -= 1

@@ -92,6 +92,11 @@ class FramePipeline:
         return self._order.changes
 
     @property
+    def restarts(self) -> int:
+        """How often a board began anew, as far as the numbers of its frames say; see `FrameOrder`."""
+        return self._order.restarts
+
+    @property
     def subtracts(self) -> bool:
         """Whether there is a baseline."""
         return self._baseline.is_set

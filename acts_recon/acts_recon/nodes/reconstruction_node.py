@@ -53,6 +53,8 @@ _COMPILING = "compiling: this takes long the first time on a machine, and with a
 _SUBSCRIBERS_PERIOD_S = 0.2
 # Of each kind, so that one that comes often hides no other.
 _REJECTED_TOLD_HZ = 0.2
+# More often no board begins anew between two reports.
+_MOST_RESTARTS = 2
 
 
 class _Counts(NamedTuple):
@@ -63,6 +65,7 @@ class _Counts(NamedTuple):
     lost: int = 0
     untold: int = 0
     source_changes: int = 0
+    restarts: int = 0
 
     def since(self, before: _Counts) -> _Counts:
         return _Counts(*map(sub, self, before))
@@ -286,8 +289,14 @@ class ReconstructionNode(Node):
 
     def _report(self) -> Report:
         now_s = time.monotonic()
+        pipeline = self._pipeline
         counts = _Counts(
-            self._frames, self._rejected.total(), self._pipeline.lost, self._untold, self._pipeline.source_changes
+            self._frames,
+            self._rejected.total(),
+            pipeline.lost,
+            self._untold,
+            pipeline.source_changes,
+            pipeline.restarts,
         )
         new, passed_s = counts.since(self._reported), now_s - self._reported_s
         self._reported, self._reported_s = counts, now_s
@@ -302,6 +311,7 @@ class ReconstructionNode(Node):
             "frames": counts.frames,
             "lost": counts.lost,
             "source_changes": counts.source_changes,
+            "restarts": counts.restarts,
             "rejected.wrong_array_size": self._rejected["wrong_array_size"],
             "rejected.bad_frame": self._rejected["bad_frame"],
             "rejected.repeated": self._rejected["repeated"],
@@ -325,6 +335,10 @@ class ReconstructionNode(Node):
         if new.source_changes > 0:
             words = "frames of two sources come in turn, and each change is taken for another board: end all but one"
             return WARN, f"{words} that publishes {self.resolve_topic_name('samples')}"
+        # Each frame is then recovered alone: what it has not measured is taken for untouched.
+        if new.restarts > _MOST_RESTARTS:
+            words = f"{counted(new.restarts, 'frame')} with a number that is not above that of the frame before, each"
+            return WARN, f"{words} taken for a board that begins anew: needed are numbers that count the frames"
         # What came after all was counted before.
         if new.lost > 0:
             words = counted(new.lost, "frame lost before it came here", "frames lost before they came here")

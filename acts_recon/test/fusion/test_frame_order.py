@@ -45,6 +45,12 @@ def test_two_sources_in_turn_are_told(first: int, first_us: int) -> None:
     assert followed([place for turn in turns for place in turn])[1] >= 97
 
 
+def test_numbers_that_stand_still_begin_anew_each_time() -> None:
+    order = FrameOrder()
+    assert [order.step(7, 1000 * number) for number in range(5)] == [False, True, True, True, True]
+    assert (order.restarts, order.changes) == (4, 0)
+
+
 def test_two_sources_may_come_in_bursts() -> None:
     ours, theirs = source(5, 5000, 99), source(90_000, 5300, 99)
     bursts = [place for at in range(0, 99, 3) for place in (*ours[at : at + 3], *theirs[at : at + 3])]

@@ -297,6 +297,18 @@ def test_frames_of_two_boards_that_mix_are_not_lost(make_bench: Callable[..., Be
     bench.diagnostics(lambda status, _: status.level == b"\x01" and status.message.startswith(words))
 
 
+def test_frames_whose_numbers_stand_still_are_told(make_bench: Callable[..., Bench]) -> None:
+    """As of a node that leaves them 0: all that the frames before have shown was forgotten, without a word."""
+    bench = make_bench(42)
+    indices = np.arange(10)
+    for step in range(20):
+        bench.send(0, indices + 10 * step, indices, **timed(step))
+    bench.until(lambda: len(bench.received["contact"]) == 20)
+    bench.diagnostics(lambda status, values: (values["frames"], values["restarts"]) == ("20", "19"))
+    words = "with a number that is not above that of the frame before"
+    bench.diagnostics(lambda status, _: status.level == b"\x01" and words in status.message)
+
+
 @pytest.mark.parametrize(
     ("parameters", "error", "word"),
     [
