@@ -92,6 +92,18 @@ def test_a_level_that_does_not_exist_is_taken_for_the_worst() -> None:
     assert told(aggregate, 0.0)["/Skins/left/driver"].level == STALE
 
 
+def test_made_up_nodes_keep_none_out_that_every_skin_has() -> None:
+    """A skin that was started after them was told to be stale for good."""
+    aggregate = Aggregate(["left"])
+    for number in range(5000):
+        aggregate.take(Status(f"left/node_{number}", 0, "well"), 0.0)
+    for name in ("left/driver", "left/reconstruction", "skin_contacts"):
+        aggregate.take(Status(name, OK, "here"), 0.0)
+    statuses = told(aggregate, 1.0)
+    assert (statuses["/Skins"].level, statuses["/Skins/left"].message) == (OK, "all well")
+    assert statuses["/Skins/skin_contacts"].message == "here"
+
+
 def test_made_up_nodes_do_not_pile_up() -> None:
     aggregate = Aggregate(["left"])
     aggregate.take(Status("left/driver", 0, "well"), 0.0)

@@ -18,7 +18,7 @@ _ROOT = "/Skins"
 # Nodes of no skin that are part of the tree from their first status on.
 _OTHERS = ("skin_contacts",)
 
-# Limit of nodes, because anybody in the domain can publish statuses of invented nodes.
+# Limit of other nodes, because anybody in the domain can publish statuses of invented nodes.
 _NODES_MAX = 200
 
 
@@ -63,7 +63,9 @@ class Aggregate:
             return
         name = status.name.removeprefix(self._prefix)
         if name in _OTHERS or name.partition("/")[0] in self._skins:
-            if name not in self._heard and len(self._heard) >= _NODES_MAX:
+            # Those that every skin has come in whatever came before them.
+            is_expected = name in _OTHERS or name.partition("/")[2] in EXPECTED
+            if name not in self._heard and len(self._heard) >= _NODES_MAX and not is_expected:
                 return
             self._heard[name] = (now_s, status)
 
