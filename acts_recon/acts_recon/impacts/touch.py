@@ -15,8 +15,11 @@ from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.impact import Kind
 from acts_recon.impacts.onset_fit import FollowedBack
 
-MAX_FRAMES = 512
-"""Frames that are kept of a touch; at higher rates than 12,800 frames/s those of the end of an impact are not."""
+MAX_FRAMES = 16384
+"""Frames that are kept of a touch at most: those of the longest impact that can be set, at up to 32,000 frames/s."""
+
+# Room for so many at first.
+_FRAMES = 512
 
 # A force that stands still at its largest for most of the time is held: nothing that flies does that.
 _HELD_SHARE, _HELD_TIME, _HELD_S = 0.8, 0.7, 0.015
@@ -67,7 +70,7 @@ class Touch:
         self.peak_x_m = self.peak_y_m = 0.0
         self.peak_image = np.zeros((0, 0), dtype=np.float32)
         self._settled_m: tuple[float, float] | None = None
-        self._rows = np.zeros((MAX_FRAMES, 4))
+        self._rows = np.zeros((_FRAMES, 4))
         self._n = 0
 
     @property
@@ -106,6 +109,8 @@ class Touch:
             self._settled_m = self._settled_m or (x_m, y_m)
             self.way_m = max(self.way_m, math.dist(self._settled_m, (x_m, y_m)))
         if age_s <= config.impact_longest_s and self._n < MAX_FRAMES:
+            if self._n == len(self._rows):
+                self._rows = np.concatenate((self._rows, np.zeros_like(self._rows)))
             self._rows[self._n] = time_s, force_n, x_m, y_m
             self._n += 1
 

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig
-from acts_core.skin import MeasuredForceResponse
-from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactDetector, Kind
+from acts_core.skin import ForceResponse, MeasuredForceResponse
+from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactConfig, ImpactDetector, Kind
 from acts_recon.impacts.footprint_fit import fit_footprint
 from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
@@ -303,6 +303,26 @@ def test_a_touch_begins_once_also_where_frames_are_longer_apart_than_an_impact_l
         image[16, 16] = 300.0 * (10 <= number < 20)
         told += detector.step(0.2 * number, 0.1, image, None, np.zeros_like(image), image)
     assert [(one.number, one.is_over) for one in told] == [(1, False), (1, True)]
+
+
+def test_of_a_long_impact_in_many_frames_none_is_left_out() -> None:
+    """Of 0.4 s at 2 kHz only the first 512 frames were kept, and the force was taken to fall from there on."""
+    detector = ImpactDetector(ArrayGeometry(), config=ImpactConfig(impact_longest_s=0.5, impact_rise_s=0.5))
+    period_s, force = 5e-4, ForceResponse()
+    told: list[Impact] = []
+    impulse_n_s = 0.0
+    for number in range(1000):
+        share = (number - 50) / 800
+        image = np.zeros((32, 32), dtype=np.float32)
+        # It is hardest late.
+        image[10:14, 10:14] = np.rint(900 * share**0.5) if 0 < share < 1 else 0.0
+        pressed = float(image[10, 10])
+        impulse_n_s += 16 * float(force.force_n(pressed)) * period_s * (pressed > 60)
+        told += detector.step(100.0 + number * period_s, period_s, image)
+    begun, over = told
+    assert (begun.is_over, over.is_over, over.kind) == (False, True, Kind.IMPACT)
+    assert over.time_s[-1] - over.time_s[0] == pytest.approx(over.duration_s, abs=2e-3)
+    assert over.impulse_n_s == pytest.approx(impulse_n_s, rel=0.02)
 
 
 def test_two_forces_that_are_next_to_equal_tell_no_onset() -> None:
