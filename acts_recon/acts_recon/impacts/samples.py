@@ -40,6 +40,9 @@ _SEARCHED = 5
 # From the taxel that is pressed most down to the foot of a contact the force may go up by this share, as sensitivities
 # differ; beyond that the next finger begins.
 _UPHILL = 1.15
+# Where the stamps of frames stand still none becomes too old: so many samples are kept at most. Of a frame at least so
+# many count, for what it takes besides. At the rate of any board these are the samples of some seconds.
+_MOST_SAMPLES, _FRAME_SAMPLES = 2**20, 32
 # Of the largest force: a contact ends at half of it, and a taxel counts in part from the first to the second, so that
 # its area is finer than a taxel.
 _FOOT, _WHOLE = 0.375, 0.625
@@ -87,12 +90,14 @@ class RecentSamples:
         # Since the last reset: of each taxel in all frames but the newest, and how many samples these have.
         self._least_counts = np.full(geometry.size, np.inf)
         self._samples = 0
+        # In `_frames`, as `_MOST_SAMPLES` counts them.
+        self._kept = 0
 
     def reset(self) -> None:
         """Forget all samples."""
         self._frames.clear()
         self._least_counts.fill(np.inf)
-        self._samples = 0
+        self._samples = self._kept = 0
 
     def add(self, time_s: float, duration_s: float, measured: NDArray[np.float32], age_s: NDArray[np.float32]) -> None:
         """Keep what was measured in one frame; parameters as of `ImpactDetector.step`."""
@@ -105,8 +110,9 @@ class RecentSamples:
         self._frames.append(
             (time_s, time_s - ages_s[taxel].astype(float), taxel, measured.ravel()[taxel].astype(float))
         )
-        while self._frames[0][0] < time_s - self._memory_s:
-            self._frames.popleft()
+        self._kept += _FRAME_SAMPLES + taxel.size
+        while self._frames[0][0] < time_s - self._memory_s or self._kept > _MOST_SAMPLES:
+            self._kept -= _FRAME_SAMPLES + self._frames.popleft()[2].size
 
     def near(
         self, x_m: float, y_m: float, reach_m: float, patch: int, shown: NDArray[np.bool_] | None = None

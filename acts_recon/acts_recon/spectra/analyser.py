@@ -37,6 +37,9 @@ _PARTS = 20
 _MOST_TAXELS = 64
 # Of the values of a spectrum every second is told: a tone is as wide as eight.
 _TOLD_EVERY = 2
+# Where the stamps of frames stand still none becomes too old: so many samples are kept at most. Of a frame at least so
+# many count, for what it takes besides. They are more than a board measures in the longest window.
+_MOST_SAMPLES, _FRAME_SAMPLES = 2**23, 32
 
 
 class PlacedFrame(NamedTuple):
@@ -96,10 +99,13 @@ class SpectrumAnalyser:
         self._touch_counts = touch_counts
         self._noise_counts = max(noise_counts, LEAST_NOISE_COUNTS)
         self._frames: deque[PlacedFrame] = deque()
+        # In these frames, as `_MOST_SAMPLES` counts them.
+        self._kept = 0
 
     def reset(self) -> None:
         """Forget all samples."""
         self._frames.clear()
+        self._kept = 0
 
     def add(
         self,
@@ -118,10 +124,13 @@ class SpectrumAnalyser:
         require_times(end_s, duration_s)
         placed, counts = self._samples.of(indices, counts, may_repeat=may_repeat)
         if self._frames and not 0.0 <= end_s - self._frames[-1].end_s <= LONGEST_PAUSE_S:
-            self._frames.clear()
+            self.reset()
         self._frames.append(PlacedFrame(end_s, duration_s, placed.copy(), counts.astype(np.float32)))
-        while self._frames[0].end_s < end_s - self.config.spectra_window_s:
-            self._frames.popleft()
+        self._kept += _FRAME_SAMPLES + placed.size
+        while self._frames[0].end_s < end_s - self.config.spectra_window_s or (
+            self._kept > _MOST_SAMPLES and len(self._frames) > 1
+        ):
+            self._kept -= _FRAME_SAMPLES + self._frames.popleft().places.size
 
     def window(self) -> tuple[PlacedFrame, ...]:
         """The frames that are kept; none while they are of less than half of the time asked for."""

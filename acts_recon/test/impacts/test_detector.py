@@ -285,6 +285,21 @@ def test_a_touch_is_followed_back_where_a_force_response_is_flat() -> None:
     assert np.isfinite(followed).all()
 
 
+def test_what_is_kept_of_frames_whose_stamps_stand_still_is_bounded() -> None:
+    """As of a node that leaves them 0: each frame was kept for good."""
+    samples = RecentSamples(ArrayGeometry(64, 64), FLAT, 60.0, 1.5, 1.0)
+    untouched = np.zeros((64, 64), dtype=np.float32)
+    for _ in range(600):
+        samples.add(100.0, 1e-3, untouched, untouched)
+    kept = samples.untouched_s(0.0, 0.0, 0, 99.0, 101.0).size
+    # Those of the newest frames.
+    assert 16 * 100 < kept < 21 * 300
+    # Where they go on again, so does this.
+    for number in range(600):
+        samples.add(100.5 + 0.01 * number, 1e-3, untouched, untouched)
+    assert samples.untouched_s(0.0, 0.0, 0, 99.0, 110.0).size == pytest.approx(kept / 254 * 101, rel=0.02)
+
+
 @pytest.mark.parametrize(("pitch_m", "row_pitch_m"), [(0.005, 0.005), (0.010, 0.002), (0.002, 0.010)])
 def test_taxels_around_a_place_are_as_many_whatever_their_pitches(pitch_m: float, row_pitch_m: float) -> None:
     geometry = ArrayGeometry(12, 12, pitch_m, row_pitch_m)

@@ -61,6 +61,21 @@ def heard(tones: dict[float, float], **options: Any) -> Spectrum:
     return spectrum
 
 
+def test_what_is_kept_of_frames_whose_stamps_stand_still_is_bounded() -> None:
+    """As of a node that leaves them as they were: each frame was kept for good."""
+    analyser = SpectrumAnalyser(ArrayGeometry(64, 64))
+    taxels = np.arange(4096, dtype=np.uint16)
+    for number in range(5000):
+        analyser.add(taxels, np.full(4096, 300, dtype=np.uint16), 100.0 + 0.3 * min(number, 3), 1e-3)
+    assert analyser.window() == ()
+    # Of stamps that go on, all frames of the window are kept.
+    for number in range(1, 1001):
+        analyser.add(taxels, np.full(4096, 300, dtype=np.uint16), 100.9 + 1e-3 * number, 1e-3)
+    window = analyser.window()
+    assert sum(one.end_s > 100.9 for one in window) >= 1000
+    assert len(window) < 2100
+
+
 def test_a_frame_of_the_time_of_the_one_before_ends_no_window() -> None:
     """So stamps are that lie a nanosecond apart."""
     analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
