@@ -251,7 +251,8 @@ def _in_one(frames: tuple[PlacedFrame, ...]) -> _Window:
     before_end = np.repeat(np.cumsum(sizes), sizes) - 1 - np.arange(sizes.sum())
     time_s = np.repeat(ends_s, sizes) - before_end * np.repeat(durations_s / sizes, sizes)
     places, counts = (np.concatenate([frame[k] for frame in frames]) for k in (2, 3))
-    rounds = _rounds(sizes, places)
+    # Of a frame that took no time, or does not say how long, each taxel was measured at one moment, however often.
+    rounds = _rounds(sizes, places) if np.median(durations_s) > 0 else 1.0
     # Within frames that repeat the pace is even, also where frames are lost.
     steps_s = np.diff(ends_s)
     frame_s = float(np.median(durations_s if rounds > 1 else steps_s[steps_s > 0]))

@@ -69,6 +69,17 @@ def test_a_frame_without_repeats_holds_the_rate_down() -> None:
     assert spectrum.sample_rate_hz == pytest.approx(1000, rel=1e-3)
 
 
+def test_frames_that_say_no_duration_have_the_rate_of_frames() -> None:
+    """A million samples a second were told of them, and a window of 10 s took gigabytes."""
+    analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, config=SpectraConfig(spectra_window_s=0.1))
+    taxels = np.full(10, 500, dtype=np.uint16)
+    for number in range(120):
+        analyser.add(taxels, np.full(10, 400, dtype=np.uint16), 1e-3 * number, 0.0, may_repeat=True)
+    (spectrum,) = analyser.spectra()
+    assert spectrum.sample_rate_hz == pytest.approx(1000, rel=1e-3)
+    assert spectrum.frequency_hz[-1] <= 500
+
+
 def test_a_taxel_twice_is_an_error_unless_the_scheme_repeats() -> None:
     analyser = SpectrumAnalyser(GEOMETRY, RESPONSE)
     twice = np.full(2, 500, dtype=np.uint16)
