@@ -196,6 +196,10 @@ class SpectrumAnalyser:
         mine &= (window.time_s >= begin_s) & (window.time_s <= end_s)
         if end_s - begin_s < _LEAST_SHARE * self.config.spectra_window_s or not mine.any():
             return None
+        force_n = np.interp(window.counts[mine], np.arange(self._force_n.size), self._force_n)
+        # Of a touch that few samples tell of, those of that time may all be of what lies beside it.
+        if not force_n.any():
+            return None
         whole = np.clip(np.rint(mean[places]), 0, self._slope_n.size - 1).astype(np.intp)
         time_s = window.time_s[mine]
         x_m = np.asarray(self._geometry.x_m(places % self._geometry.cols))
@@ -203,15 +207,13 @@ class SpectrumAnalyser:
         tones = Tones(
             time_s,
             slot_of[window.places[mine]],
-            np.interp(window.counts[mine], np.arange(self._force_n.size), self._force_n),
+            force_n,
             self._noise_counts * np.maximum(self._slope_n[whole], _LEAST_SLOPE_N),
             x_m,
             y_m,
             window.step_s,
         )
         total = float(tones.mean_n.sum())
-        if total <= 0:
-            return None
         return Spectrum(
             begin_s=float(time_s[0]),
             end_s=float(time_s[-1]),

@@ -76,6 +76,17 @@ def test_what_is_kept_of_frames_whose_stamps_stand_still_is_bounded() -> None:
     assert len(window) < 2100
 
 
+def test_a_short_touch_that_was_hardly_measured_has_no_spectrum() -> None:
+    """Nothing was measured of it while it may have gone on but what lies beside and is free: it ended the node."""
+    analyser = SpectrumAnalyser(GEOMETRY)
+    for number in range(22):
+        # Few taxels in each of 20 frames a second; one was pressed in one of them, and free in the next but one.
+        taxel, counts = {2: (330, 900), 4: (330, 0)}.get(number, (331, 0))
+        indices = np.array([taxel, 5], dtype=np.uint16)
+        analyser.add(indices, np.array([counts, 0], dtype=np.uint16), 100.0 + 0.05 * number, 1e-3)
+    assert analyser.spectra() == ()
+
+
 def test_a_frame_of_the_time_of_the_one_before_ends_no_window() -> None:
     """So stamps are that lie a nanosecond apart."""
     analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0)
