@@ -61,6 +61,22 @@ def test_a_slow_skin_holds_the_others_up_by_no_more_than_is_allowed() -> None:
     assert skins["right"].age_s == pytest.approx(0.040)
 
 
+def test_a_slow_skin_holds_a_quick_one_up_by_no_more_than_is_allowed() -> None:
+    """Of 2000 frames a second those of half a second were kept: the contacts before them were published for on."""
+    config = AlignmentConfig(align_s=1.0, stale_after_s=3.0, lost_after_s=3.0)
+    aligner: Aligner[int] = Aligner(["left", "right"], config)
+    aligner.take("right", NOW, 0, NOW)
+    ages_s = []
+    for half_ms in range(5000):
+        now_ns = NOW + half_ms * MS // 2
+        aligner.take("left", now_ns, half_ms, now_ns)
+        if half_ms % 20 == 0:
+            left, right = aligner.step(now_ns).skins
+            assert (left.state, right.state) == (SkinState.FRESH, SkinState.FRESH)
+            ages_s.append(left.age_s)
+    assert max(ages_s) == pytest.approx(1.0, abs=0.001)
+
+
 def test_a_silent_skin_is_first_stale_then_lost_and_the_other_goes_on() -> None:
     aligner = make()
     stream(aligner, "right", 0, 10)

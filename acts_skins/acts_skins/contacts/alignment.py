@@ -17,8 +17,8 @@ from acts_core.settings import setting, validate
 
 F = TypeVar("F")
 
-# Limit of frames that wait for other skins: more than any `align_s` needs at 1 kHz.
-_MAX_WAITING = 1024
+# Limit of frames that wait for other skins: more than any `align_s` needs at 4 kHz.
+_MAX_WAITING = 4096
 # Intervals between the frames of a slow skin after which it is lost.
 _LOST_INTERVALS = 5.0
 
