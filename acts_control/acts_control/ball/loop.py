@@ -31,7 +31,8 @@ from acts_core.settings import setting
 _HOMING_PERIOD_S = 0.02
 _ENDING_PERIOD_S = 0.002
 _ENDING_TIMEOUT_S = 3.0
-# What held up this process for longer may have held up whoever hands on what the robot says, too.
+# What held up this process for longer may have held up whoever hands on what the robot says, too; nobody has looked at
+# the robot for the rest, so that it counts for no deadline of it.
 _LONGEST_LOOK_S = 0.03
 # In the unit of the joints, rad or m.
 _HOMED = 0.002
@@ -43,8 +44,9 @@ _STANDING_STILL_POLLS = 5
 _MAX_PERIODS = 4
 _MIN_STEP_S = 1e-4
 
-# How long after a refused command its reason is looked for.
-_REASON_S = 0.1
+# How often the reason for a refused command is looked for, and how long after one another [s].
+_REASON_LOOKS = 50
+_REASON_PERIOD_S = 0.002
 
 
 @dataclass(frozen=True)
@@ -232,14 +234,13 @@ class ControlLoop:
         self.status = replace(self.status, phase=Phase.HOMING, reason="moving to the level pose")
         before = self._checked(watch, 0.0).joints
         timeout_s = self._robot.begin_levelling()
-        still = 0
-        end = self._steady_s() + timeout_s
-        while self._steady_s() < end:
+        still, left_s = 0, timeout_s
+        while left_s > 0.0:
             if self._stop_reason:
                 self._robot.end_levelling()
                 self._await_end(watch)
                 return False
-            self._sleep(_HOMING_PERIOD_S)
+            left_s -= self._pause(_HOMING_PERIOD_S)
             reading = self._checked(watch, _HOMING_PERIOD_S)
             moved = max((abs(new - old) for new, old in zip(reading.joints, before, strict=True)), default=0.0)
             before = reading.joints
@@ -339,15 +340,14 @@ class ControlLoop:
 
     def _await_end(self, watch: RobotWatch) -> None:
         """Wait until the robot has done what ends motion. It may brake for a while, but it must be there."""
-        end = self._steady_s() + _ENDING_TIMEOUT_S
-        last = self._steady_s()
+        left_s = _ENDING_TIMEOUT_S
         while self._robot.is_busy:
-            self._sleep(_ENDING_PERIOD_S)
-            last, before = self._steady_s(), last
-            loss = watch.loss(self._robot.read(), min(last - before, _LONGEST_LOOK_S))
+            passed_s = self._pause(_ENDING_PERIOD_S)
+            left_s -= passed_s
+            loss = watch.loss(self._robot.read(), passed_s)
             if loss:
                 raise RobotError(loss)
-            if last > end:
+            if left_s < 0.0:
                 raise RobotError(f"the robot has not ended its motion within {_ENDING_TIMEOUT_S:g} s")
 
     def _checked(self, watch: RobotWatch, dt: float) -> RobotReading:
@@ -362,11 +362,16 @@ class ControlLoop:
 
     def _cause(self, watch: RobotWatch) -> str:
         """Why a command was refused, or nothing: that it was is often known a packet earlier than why."""
-        end = self._steady_s() + _REASON_S
-        while self._steady_s() < end:
+        for _ in range(_REASON_LOOKS):
             with suppress(RobotError):
                 fault = watch.step(self._robot.read(), 0.0)
                 if fault:
                     return fault
-            self._sleep(0.002)
+            self._sleep(_REASON_PERIOD_S)
         return ""
+
+    def _pause(self, seconds: float) -> float:
+        """Let time pass between two looks at the robot; how much of it counts [s]."""
+        begin_s = self._steady_s()
+        self._sleep(seconds)
+        return min(self._steady_s() - begin_s, _LONGEST_LOOK_S)

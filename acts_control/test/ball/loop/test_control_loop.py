@@ -5,6 +5,7 @@
 
 import itertools
 import threading
+import time
 from collections.abc import Callable
 
 import pytest
@@ -139,6 +140,24 @@ def test_homing_can_be_broken_off(arm: ArmInProcess, make: Make) -> None:
     assert arm.calls == ["connect", "begin_levelling", "end_levelling", "release", "disconnect"]
 
 
+def test_a_process_that_stands_still_while_the_arm_moves_to_level_looks_at_it_again(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop, sleeps = make(autostart=False), itertools.count(1)
+    still_s = [0.0]
+
+    def sleep(seconds: float) -> None:
+        if next(sleeps) == 2:
+            still_s[0] = 2.0 * DEADLINE_S
+        time.sleep(seconds)
+
+    monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
+    monkeypatch.setattr(loop, "_sleep", sleep)
+    assert loop.start()
+    wait_for(lambda: loop.status.phase in (Phase.WAITING, Phase.STOPPED), "the end of the way")
+    assert (loop.status.phase, loop.status.reason) == (Phase.WAITING, "waiting for touch")
+
+
 @pytest.mark.parametrize(
     ("fault", "value", "words"),
     [
@@ -185,6 +204,28 @@ def test_a_refused_command_ends_motion_with_the_reason_if_there_is_one(
     assert await_stop(loop) == words
     loop.close()
     assert arm.calls == ["connect", "begin_levelling", "disconnect"]
+
+
+def test_the_reason_for_a_refused_command_is_found_also_after_this_process_stood_still(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop, still_s, is_refused = make(autostart=False), [0.0], threading.Event()
+
+    def refuse() -> None:
+        is_refused.set()
+        raise RobotError("tilt refused")
+
+    def sleep(seconds: float) -> None:
+        if is_refused.is_set():
+            still_s[0], arm.stopped = 5.0, "protective stop"
+        time.sleep(seconds)
+
+    monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
+    monkeypatch.setattr(loop, "_sleep", sleep)
+    assert loop.start()
+    balance(loop)
+    arm.refuses = refuse
+    assert await_stop(loop) == "protective stop"
 
 
 def test_stale_touch_levels_the_plate_and_ends_the_servo(arm: ArmInProcess, make: Make) -> None:

@@ -83,6 +83,34 @@ def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
 
 
+def test_a_process_that_stands_still_while_motion_ends_does_not_take_it_for_one_that_does_not_end(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop, still_s = make(autostart=False), [0.0]
+
+    def sleep(seconds: float) -> None:
+        if arm.is_busy:
+            # Meanwhile the robot has ended its motion.
+            still_s[0], arm.is_busy = 5.0, False
+        time.sleep(seconds)
+
+    end_tilting = arm.end_tilting
+
+    def end() -> None:
+        end_tilting()
+        arm.is_busy = True
+
+    monkeypatch.setattr(arm, "end_tilting", end)
+    monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
+    monkeypatch.setattr(loop, "_sleep", sleep)
+    assert loop.start()
+    balance(loop)
+    loop.stop("stopped by request")
+    assert await_stop(loop) == "stopped by request"
+    assert still_s == [5.0]
+    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+
+
 def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
     loop = make()
     balance(loop)
