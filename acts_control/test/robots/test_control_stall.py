@@ -276,6 +276,19 @@ def test_an_arm_stops_when_our_process_stands_still() -> None:
             assert simulated.state()["q_rad"][0] > ur5e.LEVEL_Q_RAD[0] + 1.0
 
 
+def test_a_process_that_stood_still_just_before_a_command_says_so() -> None:
+    with SimulatedRobot("127.0.17.19") as simulated:
+        robot = UrRobot(UrConfig(robot_ip=simulated.host))
+        robot.connect(lambda: True)
+        robot.read()
+        # Nobody tells the robot anything.
+        wait_for(lambda: not robot._newest().is_playing, "the robot to end its program")
+        robot.end_tilting()
+        told = "the robot has ended its program: this process stood still for "
+        assert robot.read().stopped.startswith(told)
+        robot.disconnect()
+
+
 def test_an_arm_does_not_go_on_when_a_protective_stop_on_its_way_is_released_and_its_program_played() -> None:
     far = (ur5e.LEVEL_Q_RAD[0] + 3.0, *ur5e.LEVEL_Q_RAD[1:])
     with ExitStack() as stack:

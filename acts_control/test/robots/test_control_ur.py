@@ -229,6 +229,23 @@ def test_a_reading_has_the_plates_tilt_and_how_far_the_arm_is_from_level() -> No
     assert (reading.waiting_s, reading.silent_s) == (0.1, 0.3)
 
 
+def test_a_command_is_not_overdue_for_what_this_process_stood_still_after_it_looked_for_the_answer(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot, now_s = UrRobot(UrConfig(robot_ip=HOST)), [10.0]
+
+    def look_and_stand_still() -> UrState:
+        now_s[0] += 5.0
+        return STATE
+
+    monkeypatch.setattr(acts_control.robots.ur.robot, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+    monkeypatch.setattr(robot, "_newest", look_and_stand_still)
+    robot._pending.append(("servoJ", 9.99))
+    assert robot.read().waiting_s == pytest.approx(0.01)
+    # It has not come since.
+    assert robot.read().waiting_s == pytest.approx(5.01)
+
+
 @pytest.mark.parametrize(
     ("mode", "words"),
     [(7, ""), (3, "it is off"), (5, "its brakes are on"), (99, "its mode is 99, needed is 7")],

@@ -141,8 +141,9 @@ class UrRobot:
 
     def read(self) -> RobotReading:
         """The newest state; costs microseconds."""
-        state = self._newest()
+        # The time first: an answer that comes while this process stands still in between is not overdue.
         now_s = time.monotonic()
+        state = self._newest()
         self._silent_s = max(self._silent_s, now_s - self._sent_s)
         if now_s >= self._kick_s:
             self._kick_s = now_s + self._config.robot_watchdog_s / _KICKS
@@ -303,8 +304,10 @@ class UrRobot:
         except OSError as error:
             reason = f"the connection is lost: {name} cannot be handed over ({error.strerror})"
             raise RobotError(f"{self._config.robot_ip}: {reason}") from error
-        self._sent_s = time.monotonic()
-        self._pending.append((name, self._sent_s))
+        now_s = time.monotonic()
+        self._silent_s = max(self._silent_s, now_s - self._sent_s)
+        self._sent_s = now_s
+        self._pending.append((name, now_s))
 
     def _take_in(self) -> None:
         """Read what the other process has told since.
