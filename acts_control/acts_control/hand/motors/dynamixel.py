@@ -213,7 +213,12 @@ class DynamixelHand:
         """
         self._is_on = False
         motor = self._hand.joints[joint]
-        self._port.reboot(motor)
+        try:
+            self._port.reboot(motor)
+        except HandLostError:
+            raise
+        except HandError:
+            pass  # its answer may have been lost: it starts anew, and does not answer where it is asked again
         deadline_s = time.monotonic() + _REBOOT_TIMEOUT_S
         while True:
             try:

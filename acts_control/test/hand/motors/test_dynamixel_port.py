@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 import serial
-from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus
-from dynamixel_sdk import COMM_SUCCESS, PortHandler
+from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
+from dynamixel_sdk import COMM_RX_TIMEOUT, COMM_SUCCESS, PortHandler
 from waiting import wait_for
 
 from acts_control.hand.description import LEAP_RIGHT
@@ -115,6 +115,33 @@ def test_a_request_that_was_asked_again_and_answered_twice_shifts_no_later_answe
         for end in (terminal, adapter):
             os.close(end)
         thread.join(DEADLINE_S)
+
+
+def test_a_motor_is_recovered_also_where_its_answer_to_that_is_lost(bus: Bus, monkeypatch: pytest.MonkeyPatch) -> None:
+    hand = bus.hand()
+    hand.connect()
+    hand.enable()
+    bus.command("overload 6")
+    wait_for(lambda: hand.read().faults[6] == "overload", "the fault", DEADLINE_S)
+    packets = hand._port._packets
+    asked: list[int] = []
+    reboot = packets.reboot
+
+    def lost(port: object, motor_id: int) -> tuple[int, int]:
+        # The first is lost on its way back; to the others a motor that is starting does not answer.
+        if not asked:
+            reboot(port, motor_id)
+        asked.append(motor_id)
+        return COMM_RX_TIMEOUT, 0
+
+    monkeypatch.setattr(packets, "reboot", lost)
+    hand.recover(6)
+    assert set(asked) == {6}
+    assert hand.read().faults == ("",) * 16
+    motor = bus.motors()[6]
+    assert (motor["torque_enable"], motor["operating_mode"], motor["goal_current"]) == (0, 5, 350)
+    assert torques(bus) == {0, 1}
+    hand.close()
 
 
 def test_a_program_that_stood_still_while_it_wrote_has_not_lost_the_port(
