@@ -18,6 +18,7 @@ from acts_control.hand.motors import HandError, with_motors
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_core.errors import PacketError
 from acts_core.stop_signals import StopSignals
+from acts_ros.clocks import Stalls
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import WARN, Report
 from acts_ros.executor import run
@@ -28,6 +29,8 @@ from acts_ros.qos import STATE
 # Far more than the names and angles of any hand; reading more would hold the hand's loop up.
 _COMMAND_BYTES_MAX = 65536
 
+# A shorter pause of the executor may be a long callback.
+_SHORTEST_STALL_S = 0.5
 
 HandSettings = with_motors(MotorSettings)
 """Parameters of the node."""
@@ -42,7 +45,14 @@ class HandNode(MotorNode):
         self._refusal = ""
         settings: Any = declare(self, HandSettings)
         self.start_with(settings, None, "release", "~/command")
+        # The loop notices a standstill, too, but not one in the middle of something that takes long.
+        self._command_stalls = Stalls(self, max(settings.command_stale_after_s, _SHORTEST_STALL_S))
         self.create_subscription(JointState, "~/command", self._on_command, STATE, raw=True)
+
+    def begin(self) -> None:
+        """Start the loop, and with `autostart` the motors."""
+        self._command_stalls.begin()
+        super().begin()
 
     def report(self) -> Report:
         """What the diagnostics say: of the motors, and of commands that were left out."""
@@ -68,6 +78,10 @@ class HandNode(MotorNode):
         if len(angles_rad) < len(message.name):
             twice = next(name for name in message.name if message.name.count(name) > 1)
             self._refuse(f"it names {twice[:64]!r} more than once")
+            return
+        stood_still = self._command_stalls.objection()
+        if stood_still and not self.why_still():
+            self._refuse(stood_still)
             return
         try:
             self.loop.command(angles_rad)

@@ -7,16 +7,24 @@ from __future__ import annotations
 
 import math
 import signal
+import threading
+import time
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
+from hand_loop_rig import MadeBus
 from hand_node_rig import node_and_user
+from peers import Peers
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+from waiting import wait_for
 
+from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.nodes import motor_node
+from acts_control.hand.nodes.hand_node import HandNode
 
 pytestmark = pytest.mark.slow
 
@@ -68,6 +76,48 @@ def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus:
         _, errors = process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 0
         assert "a command was left out: the hand has no joint 'nobody'" in errors
+
+
+def test_what_was_commanded_while_the_program_stood_still_as_torque_came_on_is_not_done(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    bus, is_enabling, may_go_on = MadeBus(), threading.Event(), threading.Event()
+    enable = bus.enable
+
+    def held() -> None:
+        is_enabling.set()
+        assert may_go_on.wait(DEADLINE_S)
+        enable()
+
+    monkeypatch.setattr(bus, "enable", held)
+    monkeypatch.setattr(motor_node, "make_motors", lambda *_arguments: bus)
+    user = Peers(DOMAIN_ID, "user")
+    node = user.add(HandNode(context=user.context))
+    commands = user.peer.create_publisher(JointState, "hand/command", 10)
+    command = JointState(name=["index_pip"], position=[0.9])
+    try:
+        node.begin()
+        user.until(lambda: is_enabling.is_set() and commands.get_subscription_count() == 1)
+        # Neither its executor nor its loop goes on, as where the process stands still.
+        commands.publish(command)
+        begin_s = time.monotonic()
+        wait_for(lambda: time.monotonic() - begin_s > 1.0, "a while")
+        may_go_on.set()
+        wait_for(lambda: node.loop.status.phase is HandPhase.ENABLED, "torque")
+        cycles = node.loop.status.cycles
+        user.until(lambda: node.loop.status.cycles > cycles + 20)
+        assert bus.sent[-1] == pytest.approx(bus.q_rad)
+        assert "this program stood still for " in node.report()[1]
+
+        def is_obeyed() -> bool:
+            commands.publish(command)
+            return bus.sent[-1][2] > 0.5
+
+        user.until(is_obeyed)
+    finally:
+        may_go_on.set()
+        node.close()
+        user.close()
 
 
 def test_the_leap_team_s_own_node_is_commanded_within_the_same_limits() -> None:
