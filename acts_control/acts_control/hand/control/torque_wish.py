@@ -16,6 +16,10 @@ CUT_POWER = "motors that are silent may hold on: cut their power to be sure"
 
 # Who asks for torque or a release waits no longer for the motors' answers; where many are silent, it takes longer.
 _ANSWER_S = 2.0
+# How often that is looked at, and how much of the time since the look before counts: while this program stands still,
+# so does the loop of the hand, and what motors say is not heard.
+_LOOK_S = 0.02
+_LONGEST_LOOK_S = 0.1
 
 
 class PendingAnswer:
@@ -33,7 +37,8 @@ class PendingAnswer:
     def __init__(self, is_known: threading.Event, words: Callable[[], str], *, waits: bool) -> None:
         self._is_known = is_known
         self._words = words
-        self._until_s = time.monotonic() + (_ANSWER_S if waits else 0.0)
+        self._left_s = _ANSWER_S if waits else 0.0
+        self._looked_s = time.monotonic()
 
     @classmethod
     def known(cls, words: str) -> PendingAnswer:
@@ -41,8 +46,10 @@ class PendingAnswer:
         return cls(threading.Event(), lambda: words, waits=False)
 
     def poll(self) -> str | None:
-        """The answer; None as long as it is to be waited for."""
-        if not self._is_known.is_set() and time.monotonic() < self._until_s:
+        """The answer; None as long as it is to be waited for. To be called again and again until it is there."""
+        before_s, self._looked_s = self._looked_s, time.monotonic()
+        self._left_s -= min(self._looked_s - before_s, _LONGEST_LOOK_S)
+        if not self._is_known.is_set() and self._left_s > 0.0:
             return None
         return self._words()
 
@@ -53,8 +60,9 @@ class PendingAnswer:
 
     def wait(self) -> str:
         """The answer, when it is known."""
-        self._is_known.wait(max(self._until_s - time.monotonic(), 0.0))
-        return self._words()
+        while (answer := self.poll()) is None:
+            self._is_known.wait(_LOOK_S)
+        return answer
 
 
 class TorqueWish:
