@@ -25,6 +25,10 @@ _ADDRESS_BYTES = 108
 _COPIES_S = 0.5
 _RETRY_S = 0.01
 
+# Connections to holders of claims, by their addresses. A holder takes none of them, so each stays in its queue, which
+# has room for 128: who waits for a claim asks by the same one again.
+_asked: dict[bytes, socket.socket] = {}
+
 
 class ClaimedError(ActsError):
     """Another program has the claim; the message names that program."""
@@ -82,13 +86,29 @@ def _address(name: bytes) -> bytes:
 
 def _holder(address: bytes) -> int:
     """The process that has the claim, or `_UNKNOWN`."""
-    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as question:
+    question = _asked.pop(address, None)
+    if question is None or _has_ended(question):
+        question = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         question.setblocking(False)
         try:
             question.connect(address)
-            data = question.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
         except OSError:
             # It has just gone, or does not answer.
+            question.close()
             return _UNKNOWN
-        pid, _user, _group = _CREDENTIALS.unpack(data)
-        return int(pid)
+    _asked[address] = question
+    data = question.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, _CREDENTIALS.size)
+    pid, _user, _group = _CREDENTIALS.unpack(data)
+    return int(pid)
+
+
+def _has_ended(question: socket.socket) -> bool:
+    """Whether the holder has given up the claim since it was asked; the connection is closed then."""
+    try:
+        question.recv(1)  # nothing ever comes
+    except BlockingIOError:
+        return False
+    except OSError:
+        pass
+    question.close()
+    return True
