@@ -108,12 +108,24 @@ class DynamixelHand:
                 self._port.write(joint, table.TORQUE, 1)
                 # What comes in between, such as a cable torn off, leaves no motor on without a watchdog.
                 self._port.write(joint, table.WATCHDOG, table.LONGEST_WATCHDOG if watchdog else 0)
-            self._each(table.WATCHDOG, watchdog)
+            for joint in self._hand.joints:
+                self._watch(joint, watchdog)
         except HandError:
             with suppress(HandError):
                 self.release()
             raise
         self._is_on = True
+
+    def _watch(self, joint: Joint, watchdog: int) -> None:
+        """Set the watchdog of a motor, also where that has stopped it since it was switched on."""
+        try:
+            self._port.write(joint, table.WATCHDOG, watchdog)
+        except HandLostError:
+            raise
+        except HandError:
+            # This program has stood still: such a motor takes nothing but 0.
+            self._port.write(joint, table.WATCHDOG, 0)
+            self._port.write(joint, table.WATCHDOG, watchdog)
 
     def release(self) -> None:
         """Switch the torque off, also where some motors do not answer.

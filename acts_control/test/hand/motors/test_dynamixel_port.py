@@ -16,14 +16,14 @@ from pathlib import Path
 
 import pytest
 import serial
-from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
+from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, reading_where, torques
 from dynamixel_sdk import COMM_RX_TIMEOUT, COMM_SUCCESS, PortHandler
 from waiting import wait_for
 
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.description import LEAP_RIGHT, Joint
 from acts_control.hand.motors import DynamixelConfig, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
-from acts_control.hand.motors.dynamixel_table import D_GAIN, GOAL_POSITION, P_GAIN
+from acts_control.hand.motors.dynamixel_table import D_GAIN, GOAL_POSITION, P_GAIN, TORQUE, WATCHDOG_EXPIRED, Register
 from acts_sim.dynamixel.packets import PacketReader, encode_status
 
 pytestmark = pytest.mark.slow
@@ -141,6 +141,27 @@ def test_a_motor_is_recovered_also_where_its_answer_to_that_is_lost(bus: Bus, mo
     motor = bus.motors()[6]
     assert (motor["torque_enable"], motor["operating_mode"], motor["goal_current"]) == (0, 5, 350)
     assert torques(bus) == {0, 1}
+    hand.close()
+
+
+def test_motors_that_stop_while_the_program_stands_still_as_it_switches_them_on_are_on_in_the_end(
+    bus: Bus, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hand = bus.hand(motor_watchdog_s=2.54)
+    hand.connect()
+    write = hand._port.write
+
+    def stand_still_before_the_last(joint: Joint, register: Register, value: int) -> None:
+        if (joint, register, value) == (LEAP_RIGHT.joints[-1], TORQUE, 1):
+            wait_for(lambda: bus.motors()[0]["bus_watchdog"] == WATCHDOG_EXPIRED, "a motor to stop", DEADLINE_S)
+        write(joint, register, value)
+
+    monkeypatch.setattr(hand._port, "write", stand_still_before_the_last)
+    hand.enable()
+    assert torques(bus) == {1}
+    # They obey: one that was stopped takes no goal.
+    hand.command([0.2] * 16)
+    reading_where(hand, lambda it: min(it.q_rad) > 0.15)
     hand.close()
 
 
