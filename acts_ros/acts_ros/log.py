@@ -8,9 +8,16 @@ from __future__ import annotations
 import time
 from typing import Any
 
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from acts_core.runtime import LogCallback
+
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
+"""The clock of lines that are throttled.
+
+By that of the system, which rclpy takes otherwise, they stay away for an hour where it is set back by an hour.
+"""
 
 _BURST = 5
 _PERIOD_S = 1.0

@@ -1,13 +1,18 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Which changes of a state are logged."""
+"""Which changes of a state are logged, and throttled lines where the clock is set."""
 
 import time
 
 import pytest
+from rclpy.clock import Clock
+from rclpy.impl.rcutils_logger import Throttle
+from rclpy.logging import get_logger
+from rclpy.time import Time
+from waiting import wait_for
 
-from acts_ros.log import LoggedChanges
+from acts_ros.log import STEADY, LoggedChanges
 
 
 @pytest.fixture
@@ -39,3 +44,30 @@ def test_reasons_that_come_and_go_are_logged_once_a_second_after_the_first(now_s
     now_s[0] += 1.0
     assert changes.is_due("waiting", "for nothing")
     assert all(changes.is_due(state, "again") for state in ["moving", "waiting"] * 20)
+
+
+class SystemClock(Clock):
+    """One that can be set."""
+
+    set_by_s = 0.0
+
+    def now(self) -> Time:
+        return Time(nanoseconds=time.time_ns() + round(self.set_by_s * 1e9))
+
+
+def test_a_throttled_line_does_not_stay_away_after_the_clock_was_set_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = SystemClock()
+    monkeypatch.setitem(Throttle.params, "throttle_time_source_type", clock)
+    logger = get_logger("throttled")
+
+    def is_told() -> bool:
+        return logger.warning("dropped", throttle_duration_sec=0.05, throttle_time_source_type=STEADY)
+
+    def is_told_by_the_system() -> bool:
+        return logger.warning("dropped", throttle_duration_sec=0.05)
+
+    assert (is_told(), is_told_by_the_system()) == (True, True)
+    clock.set_by_s = -3600.0
+    wait_for(is_told, "the line")
+    wait_for(is_told, "the next one")
+    assert not is_told_by_the_system()

@@ -26,6 +26,7 @@ from acts_msgs.msg import Contact
 from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import STEADY
 from acts_ros.messages import read_contact
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
@@ -163,7 +164,9 @@ class GiveWayNode(PollingNode):
 
     def _refuse(self, why: str) -> None:
         self._refused += 1
-        self.get_logger().warning(f"contact dropped: {why}", throttle_duration_sec=5.0)
+        self.get_logger().warning(
+            f"contact dropped: {why}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
+        )
 
     def _publish(self, speed_m_s: float) -> None:
         stamp = self._message.header.stamp

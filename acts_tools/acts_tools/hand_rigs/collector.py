@@ -16,6 +16,7 @@ from acts_core.errors import ActsError, PacketError
 from acts_core.skin import layout
 from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros import qos
+from acts_ros.log import STEADY
 from acts_ros.messages import read_regions, seconds_of
 from acts_ros.polled import PollingNode
 from acts_sim.hand import TruthFollower
@@ -133,6 +134,8 @@ class HandCollector(PollingNode):
         try:
             message = read_regions(data)
         except PacketError as error:
-            self.get_logger().warning(f"message ignored: {error}", throttle_duration_sec=1.0)
+            self.get_logger().warning(
+                f"message ignored: {error}", throttle_duration_sec=1.0, throttle_time_source_type=STEADY
+            )
             return
         self.recording.regions.append((message.stamp_ns * 1e-9 - self._clock_offset_s, message.regions))

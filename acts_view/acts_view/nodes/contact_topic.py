@@ -12,6 +12,7 @@ from acts_core.errors import PacketError
 from acts_core.runtime import SequenceNumbers
 from acts_msgs.msg import Contact, ContactSeries
 from acts_ros import qos
+from acts_ros.log import STEADY
 from acts_ros.messages import ContactFields, SeriesFields, read_contact, read_series
 from acts_ros.polled import PolledSubscription, PollingNode
 from acts_view.skin.snapshot import Sample
@@ -84,7 +85,9 @@ class ContactTopic:
                 samples += _samples(series)
             except PacketError as error:
                 self._node.get_logger().warning(
-                    f"{self._namespace}/view/contact_series: {error}", throttle_duration_sec=5.0
+                    f"{self._namespace}/view/contact_series: {error}",
+                    throttle_duration_sec=5.0,
+                    throttle_time_source_type=STEADY,
                 )
                 continue
             newest = series.newest
@@ -97,7 +100,9 @@ class ContactTopic:
             try:
                 newest = read_contact(data)
             except PacketError as error:
-                self._node.get_logger().warning(f"{self._namespace}: {error}", throttle_duration_sec=5.0)
+                self._node.get_logger().warning(
+                    f"{self._namespace}: {error}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
+                )
                 continue
             latency_ms = _latency_ms((received_ns - newest.stamp_ns) * 1e-9)
             samples.append(

@@ -28,6 +28,7 @@ from acts_msgs.msg import (
     RegionContacts,
 )
 from acts_ros import qos
+from acts_ros.log import STEADY
 from acts_ros.messages import (
     ContactsFields,
     ImageFields,
@@ -238,7 +239,9 @@ class SkinTopics:
         try:
             return read(data)
         except PacketError as error:
-            self._node.get_logger().warning(f"{self._namespace}, {what}: {error}", throttle_duration_sec=5.0)
+            self._node.get_logger().warning(
+                f"{self._namespace}, {what}: {error}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
+            )
             return None
 
 

@@ -24,7 +24,7 @@ from acts_core.errors import ArrayError
 from acts_core.words import counted
 from acts_ros.clocks import steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.log import log_of
+from acts_ros.log import STEADY, log_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_ros.publishers import OnlyPublishers
@@ -138,7 +138,9 @@ class ViewNode(PollingNode):
                         self._server.show_frame(name, *taken)
                 except Exception:  # noqa: BLE001 - the page goes on showing the other skins
                     self.get_logger().error(
-                        f"{name} cannot be shown: {traceback.format_exc()}", throttle_duration_sec=_TOLD_EVERY_S
+                        f"{name} cannot be shown: {traceback.format_exc()}",
+                        throttle_duration_sec=_TOLD_EVERY_S,
+                        throttle_time_source_type=STEADY,
                     )
 
     def _step(self) -> None:
@@ -206,7 +208,7 @@ class ViewNode(PollingNode):
         try:
             self._server.show_shape(name, SkinShape(**values))
         except ArrayError as error:
-            self.get_logger().warning(f"{name}: {error}", throttle_duration_sec=10.0)
+            self.get_logger().warning(f"{name}: {error}", throttle_duration_sec=10.0, throttle_time_source_type=STEADY)
 
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()

@@ -29,6 +29,7 @@ from acts_ros.clocks import keep_system_clock, steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
+from acts_ros.log import STEADY
 from acts_ros.messages import ns_of, read_contact, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.polled import PollingNode
@@ -154,7 +155,9 @@ class BallStateNode(PollingNode):
         try:
             contact = read_contact(data)
         except PacketError as error:
-            self.get_logger().warning(f"contact dropped: {error}", throttle_duration_sec=5.0)
+            self.get_logger().warning(
+                f"contact dropped: {error}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
+            )
             return
         if contact.frame_id != self._frame_id:
             # Its place is in other coordinates: a plate tilted by it might throw the ball off.

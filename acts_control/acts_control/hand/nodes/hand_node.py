@@ -22,6 +22,7 @@ from acts_ros.clocks import Stalls
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import WARN, Report
 from acts_ros.executor import run
+from acts_ros.log import STEADY
 from acts_ros.messages import message_of
 from acts_ros.parameters import declare, node_options
 from acts_ros.qos import STATE
@@ -95,7 +96,9 @@ class HandNode(MotorNode):
     def _refuse(self, why: str) -> None:
         self._refused += 1
         self._refusal = why
-        self.get_logger().error(f"a command was left out: {why}", throttle_duration_sec=1.0)
+        self.get_logger().error(
+            f"a command was left out: {why}", throttle_duration_sec=1.0, throttle_time_source_type=STEADY
+        )
 
 
 SETTINGS: dict[str, type] = {"hand": HandSettings}

@@ -39,7 +39,7 @@ from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, Report
 from acts_ros.executor import run
-from acts_ros.log import LoggedChanges
+from acts_ros.log import STEADY, LoggedChanges
 from acts_ros.messages import RegionsFields, read_regions, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
@@ -257,7 +257,9 @@ class HandReflexesNode(MotorNode):
         if self._changes.is_due(status.state, status.reason):
             self.get_logger().info(f"{status.state.name.lower()}: {status.reason}")
         if status.refused > self._told.refused:
-            self.get_logger().warning(f"left out: {status.refusal}", throttle_duration_sec=5.0)
+            self.get_logger().warning(
+                f"left out: {status.refusal}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
+            )
         if status.unfelt and status.unfelt != self._told.unfelt:
             self.get_logger().warning(_says_nothing(status.unfelt))
         self._told = status
