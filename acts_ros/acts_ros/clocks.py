@@ -73,7 +73,8 @@ def keep_system_clock(node: Node, reason: str) -> None:
 class Stalls:
     """Notices that a node has stood still: what was asked for meanwhile arrives afterwards as if it were new.
 
-    It stands still while its process does (Ctrl-Z, Ctrl-S in its terminal, a debugger, a machine that is far too busy).
+    It stands still while its process does: Ctrl-Z, Ctrl-S in its terminal, a debugger, a machine that is too busy or
+    sleeps.
 
     Parameters
     ----------
@@ -100,7 +101,8 @@ class Stalls:
         return f"this program stood still for {self._stood_still_s:.1f} s, and was perhaps asked meanwhile; ask again"
 
     def _look(self) -> float:
-        now_s, before_s = time.monotonic(), self._looked_s
+        # Unlike that of `time.monotonic`, this clock also runs while the machine sleeps: a laptop that is opened again.
+        now_s, before_s = time.clock_gettime(time.CLOCK_BOOTTIME), self._looked_s
         self._looked_s = now_s
         if math.isfinite(before_s) and now_s - before_s > self._longest_s:
             self._ended_s, self._stood_still_s = now_s, now_s - before_s

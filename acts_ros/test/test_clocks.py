@@ -90,3 +90,18 @@ def test_what_is_asked_for_after_a_node_stood_still_is_told_from_what_is_new(con
     assert float(told[1]) >= 1.0
     assert stalls.objection() != ""
     spin_until(lambda: stalls.objection() == "")
+
+
+def test_a_machine_that_has_slept_has_stood_still(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    stalls = Stalls(make_node(context))
+    clock_gettime, slept_s = time.clock_gettime, [0.0]
+
+    def clock(number: int) -> float:
+        # Of these, Linux lets only this one run meanwhile.
+        return clock_gettime(number) + (slept_s[0] if number == time.CLOCK_BOOTTIME else 0.0)
+
+    monkeypatch.setattr(time, "clock_gettime", clock)
+    stalls.begin()
+    assert stalls.objection() == ""
+    slept_s[0] = 600.0
+    assert stalls.objection().startswith("this program stood still for 600.")
