@@ -49,6 +49,8 @@ class Baseline:
         How it was determined.
     time_ns : int
         When, in ROS time [ns].
+    board_id : int
+        Serial number of the board on whose skin it was determined; 0 where that is not known.
     """
 
     counts: NDArray[np.float32]
@@ -56,6 +58,7 @@ class Baseline:
     valid: NDArray[np.bool_]
     source: BaselineSource
     time_ns: int
+    board_id: int = 0
 
     def __post_init__(self) -> None:
         shape = self.counts.shape
@@ -94,6 +97,7 @@ class Baseline:
                 noise=self.noise_counts,
                 valid=self.valid,
                 time_ns=self.time_ns,
+                board_id=np.uint64(self.board_id),
             )
 
     @classmethod
@@ -118,6 +122,10 @@ class Baseline:
             time_ns = int(content["time_ns"])
             if not 0 <= time_ns <= _TIME_MAX_NS:
                 raise ArrayError(f"time_ns = {time_ns}: a time lies between 0 and {_TIME_MAX_NS} ns")
+            # Older files have none.
+            board_id = int(content.get("board_id", 0))
+            if not 0 <= board_id < 2**64:
+                raise ArrayError(f"board_id = {board_id}: a serial number lies between 0 and 2**64 - 1")
             baseline = cls(
                 counts=counts,
                 noise_counts=noise,
@@ -125,6 +133,7 @@ class Baseline:
                 valid=content["valid"].astype(np.bool_, casting="same_kind"),
                 source=BaselineSource.FILE,
                 time_ns=time_ns,
+                board_id=board_id,
             )
         except KeyError as error:
             raise SettingsError(f"{path}: no baseline, or a damaged one, it lacks {error.args[0]}; {again}") from error

@@ -33,7 +33,6 @@ def other_version(state: BoardState, needed: tuple[int, int]) -> str:
 def another_board(before: BoardState, now: BoardState) -> str:
     """That the port leads to another board than before."""
     return (
-        f"the port leads to board {now.board_id} now, it was board {before.board_id} before: if its skin is another "
-        "one, calibrate or tare, as the baseline is still of the one before; the port "
+        f"the port leads to board {now.board_id} now, it was board {before.board_id} before: the port "
         f"serial:{before.board_id} would take that board alone"
     )

@@ -9,6 +9,7 @@ import threading
 import time
 from array import array
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -67,6 +68,9 @@ class BaselineServices:
         # Between calibrations that are being stored, on threads of their own; and the last of them.
         self._storing = threading.Lock()
         self._newest: Baseline | None = None
+        # Serial numbers of the board that is read, and of that of the baseline; 0 where not known.
+        self._board_id = self._baseline_board_id = 0
+        self._problem_told = ""
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
@@ -95,6 +99,7 @@ class BaselineServices:
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
         self._published = None
         self._path, self._tracker, self._pace = path, tracker, Pace()
+        self._baseline_board_id = 0 if baseline is None else baseline.board_id
         if baseline is not None:
             tracker.set(baseline)
             self._publish(baseline)
@@ -115,12 +120,33 @@ class BaselineServices:
     def end(self) -> None:
         """Tell that no frames come from now on: what is remembered is not the present skin, however young."""
         self._pace = Pace()
+        self._board_id = 0
+
+    def board_answers(self, board_id: int) -> None:
+        """Tell which board is read, by its serial number; from any thread."""
+        self._board_id = board_id
+        problem = self.problem
+        if problem and problem != self._problem_told:
+            self._node.get_logger().warning(problem)
+        self._problem_told = problem
+
+    @property
+    def problem(self) -> str:
+        """That the baseline is of another board's skin, in words; empty where it is not, or that is not known."""
+        baseline_id, board_id = self._baseline_board_id, self._board_id
+        if not baseline_id or not board_id or baseline_id == board_id:
+            return ""
+        return (
+            f"the baseline is of board {baseline_id}, and the port leads to board {board_id}: give the port "
+            f"serial:{baseline_id}, or calibrate"
+        )
 
     def values(self) -> dict[str, object]:
         """What the driver's diagnostics say of the baseline."""
         present, drift = self._tracker.present(), self._tracker.drift()
         return {
             "baseline": "none" if present is None else present.source.name.lower(),
+            "baseline_board": self._baseline_board_id or "not known",
             "baseline_taxels": 0 if present is None else int(present.valid.sum()),
             "baseline_below": self._tracker.below(),
             "baseline_drift_per_min.median": "none" if drift is None else drift.median,
@@ -130,9 +156,10 @@ class BaselineServices:
     def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             self._require_frames()
-            baseline = self._tracker.calibrate()
+            baseline = replace(self._tracker.calibrate(), board_id=self._board_id)
         except ActsError as error:
             return self._answer(response, False, str(error))
+        self._baseline_board_id = baseline.board_id
         # In force even where the file cannot be written.
         self._publish(baseline)
         path, self._newest = self._path, baseline
@@ -162,6 +189,7 @@ class BaselineServices:
             tare = self._tracker.tare()
         except ActsError as error:
             return self._answer(response, False, str(error))
+        self._baseline_board_id = self._board_id
         self._publish(tare.baseline)
         return self._answer(response, True, str(tare))
 

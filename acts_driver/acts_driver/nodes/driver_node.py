@@ -30,7 +30,7 @@ from acts_driver.settings import DriverSettings
 from acts_msgs.msg import TactileSamples
 from acts_ros.clocks import keep_system_clock
 from acts_ros.composition import parameters_from
-from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter, Report
+from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import SamplesMessage, skin_frame
@@ -114,7 +114,7 @@ class DriverNode(LifecycleNode):
             return FAILURE
         self._problem = ""
         self._source, self._next_source = source, None
-        self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._board.publish)
+        self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._on_board)
         self._board.session = self.intake.session
         self.intake.start()
         if self._autostart is not None:
@@ -200,6 +200,12 @@ class DriverNode(LifecycleNode):
         for result, stamp_ns in results:
             self._topics.publish(result, stamp_ns)
 
+    def _on_board(self, status: BoardStatus) -> None:
+        """Take what is known of the board; from any thread."""
+        if status.state is not None:
+            self._baseline.board_answers(status.state.board_id)
+        self._board.publish(status)
+
     def _on_changed_parameters(self, settings: DriverSettings) -> str:
         """Tell the board, or take them for when there is one; why it cannot be, or nothing."""
         try:
@@ -231,6 +237,9 @@ class DriverNode(LifecycleNode):
     def _make_report(self) -> Report:
         if self.intake is not None:
             level, message, values = self.intake.report("active" if self.active else "inactive", time.time_ns())
+            problem = self._baseline.problem
+            if problem:
+                level, message = max(level, WARN), f"{problem}; {message}"
             self._reported = (time.monotonic(), level, message)
             return level, message, {**values, **self._baseline.values()}
         if self._is_finalized:

@@ -247,7 +247,9 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
 def some_baseline() -> Baseline:
     rng = np.random.default_rng(1)
     counts = rng.uniform(0, 40, (ROWS, COLS)).astype(np.float32)
-    return Baseline(counts, counts / np.float32(20), rng.random((ROWS, COLS)) < 0.9, BaselineSource.CALIBRATION, 5)
+    return Baseline(
+        counts, counts / np.float32(20), rng.random((ROWS, COLS)) < 0.9, BaselineSource.CALIBRATION, 5, 2**64 - 1
+    )
 
 
 def test_a_file_keeps_the_baseline(tmp_path: Path) -> None:
@@ -260,7 +262,7 @@ def test_a_file_keeps_the_baseline(tmp_path: Path) -> None:
     assert (again.counts == baseline.counts).all()
     assert (again.noise_counts == baseline.noise_counts).all()
     assert (again.valid == baseline.valid).all()
-    assert (again.source, again.time_ns) == (BaselineSource.FILE, baseline.time_ns)
+    assert (again.source, again.time_ns, again.board_id) == (BaselineSource.FILE, baseline.time_ns, baseline.board_id)
     tracker = BaselineTracker(ROWS, COLS)
     tracker.set(again)
     present = tracker.present()
@@ -306,6 +308,8 @@ def test_files_that_are_no_baseline_are_refused(tmp_path: Path) -> None:
     [
         *(("time_ns", value, "time_ns = .* a time lies between 0") for value in (-1, 2**31 * 10**9, 1e300)),
         *(("time_ns", value, "cannot convert float") for value in (np.inf, np.nan)),
+        ("board_id", -1, "board_id = -1: a serial number"),
+        ("board_id", np.nan, "cannot convert float"),
         ("version", np.inf, "cannot convert float"),
         ("valid", np.full((ROWS, COLS), np.nan), "Cannot cast"),
     ],
@@ -318,6 +322,16 @@ def test_damaged_values_beside_the_counts_are_refused(tmp_path: Path, name: str,
     np.savez(path, **{**content, name: value})
     with pytest.raises(SettingsError, match=f"a damaged one .{words}.*; calibrate again"):
         Baseline.load(path, ROWS, COLS)
+
+
+def test_a_file_of_an_older_release_has_no_board(tmp_path: Path) -> None:
+    path = tmp_path / "skin.npz"
+    some_baseline().save(path)
+    with np.load(path) as arrays:
+        content = dict(arrays)
+    del content["board_id"]
+    np.savez(path, **content)
+    assert Baseline.load(path, ROWS, COLS).board_id == 0
 
 
 @pytest.mark.parametrize("value", [np.nan, -1.0, 1024.0])

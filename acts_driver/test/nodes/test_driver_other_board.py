@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Another board is plugged in at the port of the one before, as where two boards change names."""
+"""Another board is plugged in at the port of the one before, as where two boards change names; ROS_DOMAIN_ID 4."""
 
 from __future__ import annotations
 
@@ -9,13 +9,20 @@ import os
 import select
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+import pytest
+from driver_rig import Rig
 from pty_board import PtyBoard, frame, wait_for
+from std_srvs.srv import Trigger
 
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, cobs
 from acts_core.wire.commands import NO_MODEL, encode_reply
+from acts_driver.baseline import Baseline
+from acts_driver.baseline.baseline import BaselineSource
 from acts_driver.board.session import FIRMWARE
 from acts_driver.nodes.intake import Intake
 from acts_driver.port import SerialSource
@@ -97,3 +104,48 @@ def test_stamps_are_by_the_clock_of_the_board_that_is_there(tmp_path: Path) -> N
     assert min(delays_ns(7)) < EXACT_NS
     assert min(delays_ns(8)) < EXACT_NS
     assert [line for line in log if "leads to board 8 now, it was board 7" in line]
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = Rig(4)
+    yield rig
+    rig.close()
+
+
+def test_a_baseline_of_another_board_is_told_until_the_skin_is_tared(rig: Rig, tmp_path: Path) -> None:
+    counts = np.full((32, 32), 12.0, dtype=np.float32)
+    path = tmp_path / "skin.npz"
+    Baseline(counts, counts / np.float32(10), counts > 0, BaselineSource.CALIBRATION, 0, board_id=7).save(path)
+    words = "the baseline is of board 7, and the port leads to board 8: give the port serial:7, or calibrate; "
+    with PtyBoard(tmp_path) as port:
+        board = TalkingBoard(port, 8, time.monotonic_ns() // 1000)
+        rig.start_driver(port=port.path, calibration_file=path, reconnect_s=0.05)
+        told = rig.status_until(lambda status: status["message"].startswith(words), "what is wrong with the baseline")
+        assert (told["level"], told["baseline_board"], told["board"]) == ("1", "7", "8")
+        client = rig.listener.create_client(Trigger, "driver/tare")
+
+        def tared() -> bool:
+            # Refused where this machine has just stood still.
+            answer = client.call_async(Trigger.Request())
+            rig.spin_until(answer.done, "the answer")
+            return bool(answer.result().success)
+
+        rig.spin_until(tared, "a tare")
+        told = rig.status_until(lambda status: status.get("baseline") == "tare", "the report after it")
+        assert "the baseline is of" not in told["message"]
+        assert told["baseline_board"] == "8"
+        board.end()
+
+
+def test_a_baseline_of_the_board_that_is_there_is_fine(rig: Rig, tmp_path: Path) -> None:
+    counts = np.full((32, 32), 12.0, dtype=np.float32)
+    path = tmp_path / "skin.npz"
+    Baseline(counts, counts / np.float32(10), counts > 0, BaselineSource.CALIBRATION, 0, board_id=8).save(path)
+    with PtyBoard(tmp_path) as port:
+        board = TalkingBoard(port, 8, time.monotonic_ns() // 1000)
+        rig.start_driver(port=port.path, calibration_file=path)
+        told = rig.status_until(lambda status: status.get("board") == "8", "word of the board")
+        assert "the baseline is of" not in told["message"]
+        assert told["baseline_board"] == "8"
+        board.end()
