@@ -145,11 +145,12 @@ def test_a_process_that_stands_still_while_the_arm_moves_to_level_looks_at_it_ag
 ) -> None:
     loop, sleeps = make(autostart=False), itertools.count(1)
     still_s = [0.0]
+    pause = loop._sleep
 
     def sleep(seconds: float) -> None:
         if next(sleeps) == 2:
             still_s[0] = 2.0 * DEADLINE_S
-        time.sleep(seconds)
+        pause(seconds)
 
     monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
     monkeypatch.setattr(loop, "_sleep", sleep)
@@ -215,10 +216,12 @@ def test_the_reason_for_a_refused_command_is_found_also_after_this_process_stood
         is_refused.set()
         raise RobotError("tilt refused")
 
+    pause = loop._sleep
+
     def sleep(seconds: float) -> None:
         if is_refused.is_set():
             still_s[0], arm.stopped = 5.0, "protective stop"
-        time.sleep(seconds)
+        pause(seconds)
 
     monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
     monkeypatch.setattr(loop, "_sleep", sleep)

@@ -58,6 +58,7 @@ def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
     arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     loop, still_s = make(autostart=False), [0.0]
+    pause = loop._sleep
 
     def sleep(seconds: float) -> None:
         if arm.is_busy and not still_s[0]:
@@ -65,7 +66,7 @@ def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
             still_s[0], arm.frozen = 0.5, True
         elif arm.frozen:
             arm.frozen = arm.is_busy = False
-        time.sleep(seconds)
+        pause(seconds)
 
     end_tilting = arm.end_tilting
 
@@ -87,12 +88,13 @@ def test_a_process_that_stands_still_while_motion_ends_does_not_take_it_for_one_
     arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     loop, still_s = make(autostart=False), [0.0]
+    pause = loop._sleep
 
     def sleep(seconds: float) -> None:
         if arm.is_busy:
             # Meanwhile the robot has ended its motion.
             still_s[0], arm.is_busy = 5.0, False
-        time.sleep(seconds)
+        pause(seconds)
 
     end_tilting = arm.end_tilting
 
