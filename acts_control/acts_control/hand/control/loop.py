@@ -200,10 +200,6 @@ class HandLoop:
             while not self._closing.is_set():
                 now_s, dt_s, is_late = rate.wait()
                 self._count(cycles=1, late=int(is_late))
-                # Where this program stood still, also in the middle of an exchange that has failed for that, nobody has
-                # asked for the rest.
-                unasked_s = max(dt_s - self._config.silence_s / 2.0, 0.0)
-                silent_since_s, self._refused_since_s = silent_since_s + unasked_s, self._refused_since_s + unasked_s
                 try:
                     reading = self._bus.read()
                     broken = reading.not_finite()
