@@ -147,13 +147,13 @@ def test_a_process_that_stands_still_while_the_arm_moves_to_level_looks_at_it_ag
     still_s = [0.0]
     pause = loop._sleep
 
-    def sleep(seconds: float) -> None:
+    def pause_and_stand_still(seconds: float) -> None:
         if next(sleeps) == 2:
             still_s[0] = 2.0 * DEADLINE_S
         pause(seconds)
 
     monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
-    monkeypatch.setattr(loop, "_sleep", sleep)
+    monkeypatch.setattr(loop, "_sleep", pause_and_stand_still)
     assert loop.start()
     wait_for(lambda: loop.status.phase in (Phase.WAITING, Phase.STOPPED), "the end of the way")
     assert (loop.status.phase, loop.status.reason) == (Phase.WAITING, "waiting for touch")
@@ -218,13 +218,13 @@ def test_the_reason_for_a_refused_command_is_found_also_after_this_process_stood
 
     pause = loop._sleep
 
-    def sleep(seconds: float) -> None:
+    def pause_and_stand_still(seconds: float) -> None:
         if is_refused.is_set():
             still_s[0], arm.stopped = 5.0, "protective stop"
         pause(seconds)
 
     monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
-    monkeypatch.setattr(loop, "_sleep", sleep)
+    monkeypatch.setattr(loop, "_sleep", pause_and_stand_still)
     assert loop.start()
     balance(loop)
     arm.refuses = refuse

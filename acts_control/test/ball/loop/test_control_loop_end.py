@@ -5,6 +5,7 @@
 
 import threading
 import time
+from collections.abc import Callable
 
 import pytest
 from arm_in_process import DEADLINE_S, ArmInProcess
@@ -13,6 +14,7 @@ from waiting import wait_for
 
 from acts_control.ball import Phase
 from acts_control.ball.controller import BallController
+from acts_control.ball.loop import ControlLoop
 from acts_core.errors import RobotError
 
 pytestmark = pytest.mark.slow
@@ -54,63 +56,61 @@ def test_a_robot_that_does_not_end_its_motion_is_cut_off(
     assert arm.calls[-2:] == ["end_tilting", "disconnect"]
 
 
-def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
-    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+def stop_in_order(
+    arm: ArmInProcess,
+    loop: ControlLoop,
+    monkeypatch: pytest.MonkeyPatch,
+    still_s: list[float],
+    stand_still: Callable[[], None],
 ) -> None:
-    loop, still_s = make(autostart=False), [0.0]
-    pause = loop._sleep
-
-    def sleep(seconds: float) -> None:
-        if arm.is_busy and not still_s[0]:
-            # Neither this process nor that which hands on what the robot says goes on meanwhile.
-            still_s[0], arm.frozen = 0.5, True
-        elif arm.frozen:
-            arm.frozen = arm.is_busy = False
-        pause(seconds)
-
-    end_tilting = arm.end_tilting
+    """Balance, and stop an arm that ends its motion while this process stands still, for ``still_s[0]`` in all."""
+    pause, end_tilting = loop._sleep, arm.end_tilting
 
     def end() -> None:
         end_tilting()
         arm.is_busy = True
 
+    def pause_and_stand_still(seconds: float) -> None:
+        stand_still()
+        pause(seconds)
+
     monkeypatch.setattr(arm, "end_tilting", end)
     monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
-    monkeypatch.setattr(loop, "_sleep", sleep)
+    monkeypatch.setattr(loop, "_sleep", pause_and_stand_still)
     assert loop.start()
     balance(loop)
     loop.stop("stopped by request")
     assert await_stop(loop) == "stopped by request"
     wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
+
+
+def test_a_machine_that_stands_still_while_motion_ends_is_no_lost_robot(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loop, still_s = make(autostart=False), [0.0]
+
+    def stand_still() -> None:
+        if arm.is_busy and not still_s[0]:
+            # Neither this process nor that which hands on what the robot says goes on meanwhile.
+            still_s[0], arm.frozen = 0.5, True
+        elif arm.frozen:
+            arm.frozen = arm.is_busy = False
+
+    stop_in_order(arm, loop, monkeypatch, still_s, stand_still)
 
 
 def test_a_process_that_stands_still_while_motion_ends_does_not_take_it_for_one_that_does_not_end(
     arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     loop, still_s = make(autostart=False), [0.0]
-    pause = loop._sleep
 
-    def sleep(seconds: float) -> None:
+    def stand_still() -> None:
         if arm.is_busy:
             # Meanwhile the robot has ended its motion.
             still_s[0], arm.is_busy = 5.0, False
-        pause(seconds)
 
-    end_tilting = arm.end_tilting
-
-    def end() -> None:
-        end_tilting()
-        arm.is_busy = True
-
-    monkeypatch.setattr(arm, "end_tilting", end)
-    monkeypatch.setattr(loop, "_steady_s", lambda: time.monotonic() + still_s[0])
-    monkeypatch.setattr(loop, "_sleep", sleep)
-    assert loop.start()
-    balance(loop)
-    loop.stop("stopped by request")
-    assert await_stop(loop) == "stopped by request"
+    stop_in_order(arm, loop, monkeypatch, still_s, stand_still)
     assert still_s == [5.0]
-    wait_for(lambda: arm.calls[-3:] == ORDERLY_END, "the end of the connection")
 
 
 def test_a_program_that_cannot_be_ended_is_told(arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
