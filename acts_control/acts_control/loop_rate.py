@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""When the cycles of a control loop begin."""
+"""When the cycles of a control loop begin, and the clock of control loops."""
 
 from __future__ import annotations
 
@@ -10,6 +10,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 _LATE_PERIODS = 1.5
+
+
+def steady_s() -> float:
+    """The clock of control loops [s].
+
+    Unlike `time.monotonic` it also runs while the machine sleeps: a loop that goes on in a laptop that is opened again
+    has stood still, and what it remembers is old.
+    """
+    return time.clock_gettime(time.CLOCK_BOOTTIME)
 
 
 class Cycle(NamedTuple):
@@ -46,7 +55,7 @@ class LoopRate:
     def __init__(
         self,
         period_s: float,
-        steady_s: Callable[[], float] = time.monotonic,
+        steady_s: Callable[[], float] = steady_s,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self._period_s = period_s

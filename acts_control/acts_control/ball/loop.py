@@ -14,7 +14,7 @@ from math import inf
 
 from acts_control.ball.controller import BallController, BallReport, ControlInput, ControllerConfig, Phase
 from acts_control.ball.reference import ReferenceReport
-from acts_control.loop_rate import LoopRate
+from acts_control.loop_rate import LoopRate, steady_s
 from acts_control.robots.base import (
     CommandRefusedError,
     Robot,
@@ -109,7 +109,7 @@ class ControlLoop:
         now_ns: Callable[[], int],
         on_step: Callable[[int, tuple[float, float]], None] = lambda _now_ns, _tilt: None,
         *,
-        steady_s: Callable[[], float] = time.monotonic,
+        steady_s: Callable[[], float] = steady_s,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self.look: Callable[[Phase], None] = lambda _phase: None

@@ -297,6 +297,42 @@ def test_what_was_commanded_while_the_loop_stood_still_is_not_done(made: Made) -
     until(is_obeyed)
 
 
+def sleeping(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """For how long the machine has slept, to be set [s]."""
+    clock_gettime, slept_s = time.clock_gettime, [0.0]
+
+    def clock(number: int) -> float:
+        # Of the steady ones, Linux lets only this one run meanwhile.
+        return clock_gettime(number) + (slept_s[0] if number == time.CLOCK_BOOTTIME else 0.0)
+
+    monkeypatch.setattr(time, "clock_gettime", clock)
+    return slept_s
+
+
+def test_what_was_commanded_before_the_machine_slept_is_not_done_afterwards(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    slept_s, bus, told = sleeping(monkeypatch), MadeBus(), []
+    config = HandLoopConfig(silence_s=10.0, command_stale_after_s=10.0, max_speed_rad_s=0.1)
+    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, sentence: told.append(sentence))
+    loop.launch()
+
+    def until(condition: Callable[[], bool]) -> None:
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (loop.status, told))
+
+    try:
+        until(lambda: len(bus.sent) > 3)
+        loop.command({"index_pip": 1.3})
+        until(lambda: bus.sent[-1][2] > 0.31)
+        slept_s[0] = 600.0
+        until(lambda: loop.status.reason == "holding")
+        # A busy machine adds to it.
+        assert [sentence[:31] for sentence in told] == ["this program stood still for 60"]
+        assert bus.sent[-1][2] < 1.2
+    finally:
+        loop.close()
+
+
 class Waiting(Moved):
     """A behaviour that notes for how long it was told that motors did not answer."""
 

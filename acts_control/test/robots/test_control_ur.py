@@ -238,12 +238,33 @@ def test_a_command_is_not_overdue_for_what_this_process_stood_still_after_it_loo
         now_s[0] += 5.0
         return STATE
 
-    monkeypatch.setattr(acts_control.robots.ur.robot, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+    monkeypatch.setattr(acts_control.robots.ur.robot, "steady_s", lambda: now_s[0])
     monkeypatch.setattr(robot, "_newest", look_and_stand_still)
     robot._pending.append(("servoJ", 9.99))
     assert robot.read().waiting_s == pytest.approx(0.01)
     # It has not come since.
     assert robot.read().waiting_s == pytest.approx(5.01)
+
+
+def test_a_silence_that_a_robot_has_borne_is_not_blamed_for_a_later_stop(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot, now_s, states = UrRobot(UrConfig(robot_ip=HOST, robot_watchdog_s=0.5)), [10.0], [STATE]
+    monkeypatch.setattr(acts_control.robots.ur.robot, "steady_s", lambda: now_s[0])
+    monkeypatch.setattr(robot, "_newest", lambda: states[0])
+
+    def read_after(seconds: float) -> str:
+        now_s[0] += seconds
+        stopped = robot.read().stopped
+        robot._sent_s = now_s[0]
+        return stopped
+
+    robot._sent_s = now_s[0]
+    assert read_after(0.1) == ""
+    states[0] = STATE._replace(runtime_state=1)
+    assert "this process stood still for 0.6 s, and robot_watchdog_s is 0.5" in read_after(0.6)
+    states[0] = STATE
+    assert [read_after(0.1) for _ in range(30)] == [""] * 30
+    states[0] = STATE._replace(runtime_state=1)
+    assert read_after(0.1) == "the robot's program is not running (stopped)"
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ class Behaviour(Protocol):
         goal_rad : sequence of float
             What was sent last [rad].
         now_s, dt_s : float
-            By `time.monotonic`, and since the step before [s].
+            By `loop_rate.steady_s`, and since the step before [s].
 
         Returns
         -------
@@ -38,4 +38,4 @@ class Behaviour(Protocol):
         """Motors did not answer for so long, and there was no step: nobody stood still [s]."""
 
     def sent(self, began_s: float, sent_s: float) -> None:
-        """What `step` asked for has been sent; when its cycle began, and now, by `time.monotonic` [s]."""
+        """What `step` asked for has been sent; when its cycle began, and now, by `loop_rate.steady_s` [s]."""

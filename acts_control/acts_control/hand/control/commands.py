@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 import threading
-import time
 from collections.abc import Callable, Mapping
 
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandError
+from acts_control.loop_rate import steady_s
 
 
 class JointCommands:
@@ -47,7 +47,7 @@ class JointCommands:
         broken = [f"{name} = {angle}" for name, angle in angles_rad.items() if not math.isfinite(angle)]
         if broken:
             raise HandError(f"{', '.join(broken)}: angles have to be finite")
-        now_s = time.monotonic()
+        now_s = steady_s()
         with self._lock:
             if now_s - self._stood_still_s < self._stale_after_s:
                 return
@@ -61,7 +61,7 @@ class JointCommands:
         """The torque has come on: what was wanted before is old. The loop follows commands from now on."""
         with self._lock:
             self._target.clear()
-            self._looked_s = time.monotonic()
+            self._looked_s = steady_s()
 
     def begin_again(self, took_s: float) -> None:
         """The torque is on again, which took so long [s]; what stopped the motors is yet to be noticed."""
@@ -77,16 +77,16 @@ class JointCommands:
     def look(self) -> None:
         """Notice where this program stood still: commands that have waited meanwhile come at once, as if new."""
         with self._lock:
-            before_s, self._looked_s = self._looked_s, time.monotonic()
+            before_s, self._looked_s = self._looked_s, steady_s()
             still_s = self._looked_s - before_s
             if still_s > self._stale_after_s:
                 self._target.clear()
                 self._stood_still_s = self._looked_s
                 old = f"commands are left out for {self._stale_after_s:g} s, because they may have waited"
-                self._log("warning", f"this program stood still for {still_s:.2g} s: {old}")
+                self._log("warning", f"this program stood still for {still_s:.1f} s: {old}")
 
     def targets(self, now_s: float) -> tuple[dict[int, float], str]:
-        """Where joints are to go, by their numbers, and in words why; `now_s` by `time.monotonic` [s]."""
+        """Where joints are to go, by their numbers, and in words why; `now_s` by `steady_s` [s]."""
         self.look()
         with self._lock:
             fresh = now_s - self._commanded_s <= self._stale_after_s

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -20,7 +19,7 @@ from acts_control.hand.control.status import HandPhase, HandStatus
 from acts_control.hand.control.torque_wish import CUT_POWER, PendingAnswer, TorqueWish
 from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandBus, HandError, HandLostError, HandReading
-from acts_control.loop_rate import LoopRate
+from acts_control.loop_rate import LoopRate, steady_s
 
 _NOT_FINITE = "the goals stand still, for what was asked for cannot be"
 
@@ -273,7 +272,7 @@ class HandLoop:
             return goal
         self._refused_since_s = math.inf
         if self._behaviour is not None:
-            self._behaviour.sent(now_s, time.monotonic())
+            self._behaviour.sent(now_s, steady_s())
         self._set(HandPhase.ENABLED, reason, goal_rad=tuple(moved))
         if self._wish.is_on and self._wish.is_under_way:
             # Somebody has released and enabled it since the loop looked last: the torque has stayed on.
@@ -286,9 +285,9 @@ class HandLoop:
         if far:
             self._give_up(far)
             return
-        self._is_on, began_s = True, time.monotonic()
+        self._is_on, began_s = True, steady_s()
         self._bus.enable()
-        took_s, self._refused_since_s = time.monotonic() - began_s, math.inf
+        took_s, self._refused_since_s = steady_s() - began_s, math.inf
         if not self._wish.is_on:
             # Meanwhile somebody has stopped or released it: from here on the hand would hold.
             self._obey_release()
@@ -325,7 +324,7 @@ class HandLoop:
         if self._behaviour is None:
             self._commands.look()
         else:
-            self._behaviour.waited(min(time.monotonic() - now_s, self._config.silence_s))
+            self._behaviour.waited(min(steady_s() - now_s, self._config.silence_s))
 
     def _recover(self, reading: HandReading) -> None:
         """Motors have switched themselves off: start them anew, or give up what does it again and again."""
@@ -347,9 +346,9 @@ class HandLoop:
             self._log("error", f"{name}: {fault}; its motor is started anew")
             was_on = self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING)
             self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
-            began_s = time.monotonic()
+            began_s = steady_s()
             self._bus.recover(k)
-            self._commands.was_at_work(time.monotonic() - began_s)
+            self._commands.was_at_work(steady_s() - began_s)
             self._count(recovered=1)
 
     def _give_up(self, reason: str) -> None:

@@ -31,6 +31,7 @@ from acts_control.hand.nodes.cycle_times import CycleTimes
 from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_control.hand.nodes.torque_services import answered
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes, with_reflexes
+from acts_control.loop_rate import steady_s
 from acts_core.errors import PacketError
 from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
@@ -218,7 +219,7 @@ class HandReflexesNode(MotorNode):
     def _on_reading(self, reading: HandReading) -> None:
         super()._on_reading(reading)
         if self.loop.status.phase is not HandPhase.ENABLED:
-            self._touched.watch(time.monotonic())
+            self._touched.watch(steady_s())
 
     def _on_grasp(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.torque_services.serve()  # what was asked for before this

@@ -21,6 +21,7 @@ from contextlib import suppress
 from dataclasses import replace
 from math import inf, isfinite, sqrt
 
+from acts_control.loop_rate import steady_s
 from acts_control.robots.base import CommandRefusedError, RobotClaim, RobotReading, RobotStoppedError
 from acts_control.robots.ur.config import UrConfig
 from acts_control.robots.ur.gate import JointGate
@@ -42,6 +43,9 @@ _STOP_DECELERATION_RAD_S2 = 4.0
 
 # How often the robot's watchdog is told that all is well while no other command is sent, in parts of its time.
 _KICKS = 5
+
+# A robot that has ended its program for a silence says so within this time; later it is not blamed for a stop.
+_BLAMED_S = 2.0
 
 # Added to how long the way to the level pose takes by its settings, which itself may be three times as long.
 _LEVELLING_S = 5.0
@@ -75,9 +79,9 @@ class UrRobot:
         self._state: UrState | None = None
         # Commands that have not been answered yet, oldest first: name, and when it was sent [s].
         self._pending: deque[tuple[str, float]] = deque()
-        # When something was last sent, and the longest time without since the watchdog was set [s].
+        # When something was last sent, the longest time without of late, and when that was [s].
         self._sent_s = -inf
-        self._silent_s = 0.0
+        self._silent_s, self._silent_at_s = 0.0, -inf
         # When the robot's watchdog is to be told next [s]; never while commands are sent anyway, or motion is ended.
         self._kick_s = inf
         # Whether the move to the level pose may not have ended yet.
@@ -142,9 +146,9 @@ class UrRobot:
     def read(self) -> RobotReading:
         """The newest state; costs microseconds."""
         # The time first: an answer that comes while this process stands still in between is not overdue.
-        now_s = time.monotonic()
+        now_s = steady_s()
         state = self._newest()
-        self._silent_s = max(self._silent_s, now_s - self._sent_s)
+        self._note_silence(now_s)
         if now_s >= self._kick_s:
             self._kick_s = now_s + self._config.robot_watchdog_s / _KICKS
             self._send("kickWatchdog")
@@ -180,7 +184,7 @@ class UrRobot:
         # Asynchronous: a blocking moveJ would answer at its end only.
         level = _finite(config.level_q_rad)
         self._send("moveJ", level, config.homing_speed_rad_s, config.homing_acceleration_rad_s2, True)
-        self._kick_s = time.monotonic()
+        self._kick_s = steady_s()
         self._is_levelling = True
         return _LEVELLING_S + _LEVELLING_FACTOR * _way_s(config, farthest)
 
@@ -288,11 +292,11 @@ class UrRobot:
         self._await(lambda: not self.is_busy, is_wanted, _CONNECT_TIMEOUT_S, f"{name}: no answer")
 
     def _await(self, condition: Callable[[], bool], is_wanted: Callable[[], bool], timeout_s: float, what: str) -> None:
-        deadline = time.monotonic() + timeout_s
+        deadline = steady_s() + timeout_s
         while not condition():
             if not is_wanted():
                 raise RobotError(f"{self._config.robot_ip}: connecting was given up")
-            if time.monotonic() > deadline:
+            if steady_s() > deadline:
                 raise RobotError(f"{self._config.robot_ip}: {what} (waited for {timeout_s:g} s)")
             time.sleep(_POLL_S)
 
@@ -304,10 +308,15 @@ class UrRobot:
         except OSError as error:
             reason = f"the connection is lost: {name} cannot be handed over ({error.strerror})"
             raise RobotError(f"{self._config.robot_ip}: {reason}") from error
-        now_s = time.monotonic()
-        self._silent_s = max(self._silent_s, now_s - self._sent_s)
+        now_s = steady_s()
+        self._note_silence(now_s)
         self._sent_s = now_s
         self._pending.append((name, now_s))
+
+    def _note_silence(self, now_s: float) -> None:
+        silent_s = now_s - self._sent_s
+        if silent_s >= self._silent_s or now_s - self._silent_at_s > _BLAMED_S:
+            self._silent_s, self._silent_at_s = silent_s, now_s
 
     def _take_in(self) -> None:
         """Read what the other process has told since.
