@@ -151,6 +151,28 @@ def test_every_fault_is_found_and_named_among_the_others(seed: int) -> None:
     assert "700, 1023 counts" in found["stuck taxels"].text
 
 
+class RestingSkin(Skin):
+    """A hand rests flat on the middle of it for most of the time, and rolls over all of it at the end."""
+
+    def field(self, share: float) -> NDArray[np.float64]:
+        if share > 0.92:
+            return super().field((share - 0.92) / 0.08)
+        flat = np.zeros(self.knobs.shape)
+        flat[8:24, 8:24] = 300.0
+        return flat
+
+
+def test_lines_on_which_a_hand_rests_flat_are_not_shorted() -> None:
+    for wiring, told in ((Wiring(), set()), (Wiring(short_rows=((13, 14),)), {"shorted rows"})):
+        skin = RestingSkin(wiring)
+        untouched = measure_untouched(skin.record(120, touched=False))
+        touch = measure_touched(skin.record(480, touched=True), untouched, THRESHOLDS)
+        found = faults(judge_touched(touch, untouched, THRESHOLDS))
+        assert found.keys() & {"shorted rows", "shorted columns"} == told
+        if told:
+            assert found["shorted rows"].rows == (13, 14)
+
+
 @pytest.mark.parametrize("bit", range(5))
 def test_a_broken_address_line_is_told_from_shorted_columns(bit: int) -> None:
     found = faults(Skin(Wiring(address_bit=bit)).findings())
