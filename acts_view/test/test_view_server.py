@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from importlib.metadata import version
 from itertools import count
 from pathlib import Path
 from queue import Queue
@@ -36,6 +37,8 @@ from acts_view.web.server import ViewServer
 
 DEADLINE_S = 30.0
 SEND_LIMIT_S = 0.3
+# Before, the library closes a connection that asks for anything but a GET; the newest for Python 3.10 is 16.1.
+LIBRARY_KNOWS_METHODS = int(version("websockets").partition(".")[0]) >= 17
 
 
 class Bench:
@@ -104,10 +107,15 @@ def test_files_are_served_and_nothing_else(bench: Bench) -> None:
 def test_nothing_is_answered_but_what_only_reads(method: str, path: str, bench: Bench) -> None:
     connection = http.client.HTTPConnection("127.0.0.1", bench.server.address.port, timeout=DEADLINE_S)
     connection.request(method, path)
+    if not LIBRARY_KNOWS_METHODS:
+        with pytest.raises(http.client.RemoteDisconnected):
+            connection.getresponse()
+        return
     answer = connection.getresponse()
     assert (answer.status, answer.headers["Allow"]) == (405, "GET, HEAD")
 
 
+@pytest.mark.skipif(not LIBRARY_KNOWS_METHODS, reason="websockets 16 closes a connection that asks for a HEAD")
 @pytest.mark.parametrize(("path", "status"), [("/", 200), ("/style.css", 200), ("/nothing", 404), ("/stream", 403)])
 def test_a_head_is_a_page_without_its_body(path: str, status: int, bench: Bench) -> None:
     with socket.create_connection(("127.0.0.1", bench.server.address.port), DEADLINE_S) as client:
@@ -277,7 +285,8 @@ def test_connections_that_fail_are_told_in_one_line_and_without_a_traceback(capf
         server._loop.call_exception_handler({"message": "socket.accept() out of system resource"})
     finally:
         server.close()
-    assert log == ["a connection to the page failed: process_request failed: OSError [Errno 24] Too many open files"]
+    what = "process_request failed" if LIBRARY_KNOWS_METHODS else "opening handshake failed"
+    assert log == [f"a connection to the page failed: {what}: OSError [Errno 24] Too many open files"]
     assert capfd.readouterr().err == ""
 
 

@@ -23,7 +23,9 @@ def _find() -> dict[str, type[SamplingScheme]]:
     for info in pkgutil.iter_modules(schemes.__path__):
         module = import_module(f"{schemes.__name__}.{info.name}")
         for scheme in vars(module).values():
-            if isinstance(scheme, type) and issubclass(scheme, SamplingScheme) and scheme.__module__ == module.__name__:
+            # Not `isinstance(scheme, type)`: on Python 3.10 that holds for `list[int]`, which is no class.
+            is_class = issubclass(type(scheme), type)
+            if is_class and issubclass(scheme, SamplingScheme) and scheme.__module__ == module.__name__:
                 if inspect.isabstract(scheme):
                     continue  # what several schemes of the module share
                 check_words(scheme)

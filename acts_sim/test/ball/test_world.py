@@ -170,7 +170,7 @@ def test_the_ball_presses_the_picture_of_the_skin_whatever_the_wires(name: str) 
     skin, geometry = layout(name), config.geometry
     picture_n = ForceResponse().force_n(skin.picture(world.counts.reshape(32, 32)))
     x_m, y_m = geometry.x_m(np.arange(skin.cols)), geometry.y_m(np.arange(skin.rows))
-    centre_m = (picture_n.sum(0) @ x_m, picture_n.sum(1) @ y_m) / picture_n.sum()
+    centre_m = np.array([picture_n.sum(0) @ x_m, picture_n.sum(1) @ y_m]) / picture_n.sum()
     assert centre_m == pytest.approx((state.ball.x_m, state.ball.y_m), abs=1e-3)
     assert picture_n.sum() == pytest.approx(state.ball.load_n, rel=0.05)
 
