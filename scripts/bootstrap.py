@@ -72,7 +72,8 @@ class SetupError(Exception):
 
 
 def say(text: str) -> None:
-    print(f"[setup] {text}", flush=True)
+    # What the command after it prints may be read by a program, as `./acts diagnostics --json` is.
+    print(f"[setup] {text}", file=sys.stderr, flush=True)
 
 
 def check_place(root: Path) -> None:

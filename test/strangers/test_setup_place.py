@@ -10,6 +10,7 @@ import fcntl
 import importlib.util
 import mmap
 import os
+import select
 import shutil
 import subprocess
 import sys
@@ -26,6 +27,27 @@ def tried(checkout: Path) -> subprocess.CompletedProcess[str]:
     (checkout / "scripts").mkdir(parents=True, exist_ok=True)
     script = shutil.copy(BOOTSTRAP, checkout / "scripts")
     return subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=30)
+
+
+def test_what_the_set_up_says_is_no_output_of_the_command_after_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Such as that of `./acts diagnostics --json | jq`."""
+    monkeypatch.delenv("ROS", raising=False)  # each distribution has its own folder
+    (tmp_path / "scripts").mkdir()
+    (tmp_path / ".acts").mkdir()
+    command = [sys.executable, shutil.copy(BOOTSTRAP, tmp_path / "scripts")]
+    with (tmp_path / ".acts" / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            assert process.stdout is not None
+            assert process.stderr is not None
+            said, _, _ = select.select([process.stdout, process.stderr], [], [], 30)
+            fcntl.flock(lock, fcntl.LOCK_UN)
+            output, errors = process.communicate(timeout=30)
+    assert said == [process.stderr]
+    assert output == ""
+    assert errors.startswith("[setup] waiting for another set-up of this checkout to end")
 
 
 @pytest.mark.parametrize("name", ["my robots", "it's", "a:b", "a;b", "$HOME", 'a"b', "new\nline"])
