@@ -156,7 +156,9 @@ def hand_over_to_recorded_python() -> None:
 def create_venv() -> None:
     """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
     python = base_python()
-    wanted = digest([LOCK], VENV_RECIPE, sys.version, python, str(ROOT))
+    # Not the whole version: an update of the same Python, as by the system at night, changes nothing for the wheels,
+    # and a robot without network could not install them again.
+    wanted = digest([LOCK], VENV_RECIPE, str(sysconfig.get_config_var("SOABI")), python, str(ROOT))
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
         return

@@ -193,6 +193,33 @@ def test_the_build_is_not_that_of_the_users_own_workspaces(
     assert not Path(given[0]["COLCON_DEFAULTS_FILE"]).is_file()
 
 
+@pytest.fixture
+def made(bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A virtual environment that is up to date."""
+    (tmp_path / "venv").mkdir()
+    (tmp_path / "requirements.lock").touch()
+    monkeypatch.setattr(bootstrap, "LOCK", tmp_path / "requirements.lock")
+    monkeypatch.setattr(bootstrap, "PYTHON_RECORD", tmp_path / "venv" / "acts.python")
+    for name in ("VENV", "BUILD", "INSTALL"):
+        monkeypatch.setattr(bootstrap, name, tmp_path / name.lower())
+    with monkeypatch.context() as here:
+        for name in ("run", "relocate_cmake_exports", "read_paths_as_utf8"):
+            here.setattr(bootstrap, name, lambda *_, **__: (tmp_path / "venv").mkdir(exist_ok=True))
+        bootstrap.create_venv()
+    (tmp_path / "venv" / "library").write_bytes(b"0" * 4096)
+    return tmp_path
+
+
+def test_an_update_of_the_same_python_does_not_remove_the_environment(
+    bootstrap: ModuleType, made: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A robot without network could not make it again."""
+    numbers = ".".join(map(str, sys.version_info[:2]))
+    monkeypatch.setattr(sys, "version", f"{numbers}.99 (main, built last night) [GCC 99.0]")
+    bootstrap.create_venv()
+    assert (made / "venv" / "library").exists()
+
+
 def test_without_network_the_last_line_speaks_of_it(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
