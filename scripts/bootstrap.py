@@ -153,6 +153,17 @@ def hand_over_to_recorded_python() -> None:
         os.execv(recorded, [recorded, __file__, *sys.argv[1:]])
 
 
+def running_from(folder: Path) -> list[str]:
+    """Ids of the processes that have a file of a folder in memory."""
+    found = []
+    for maps in Path("/proc").glob("[0-9]*/maps"):
+        # Of another user, or it has just ended.
+        with suppress(OSError):
+            if f"{folder}/".encode() in maps.read_bytes():
+                found.append(maps.parent.name)
+    return found
+
+
 def create_venv() -> None:
     """Install the locked wheels into a fresh virtual environment and make it a ROS prefix."""
     python = base_python()
@@ -161,6 +172,14 @@ def create_venv() -> None:
     wanted = digest([LOCK], VENV_RECIPE, str(sysconfig.get_config_var("SOABI")), python, str(ROOT))
     stamp = VENV / "acts.stamp"
     if up_to_date(stamp, wanted):
+        return
+    if stamp.is_file() and (ids := running_from(VENV)):
+        # It would go on without its files, and not come again after a crash; and this command may be the one that is to
+        # stop a robot.
+        used = f"what runs from here (ps {' '.join(ids)}) needs the wheels as they are"
+        if PYTHON_RECORD.read_text() != python:
+            raise SetupError(f"{used}, and they are not for {python}: end that first")
+        say(f"not brought up to date: {used}; end that, and the next command installs the new ones")
         return
     # Gone while the work is under way: an interrupted one must not pass for whole when its inputs change back.
     stamp.unlink(missing_ok=True)

@@ -220,6 +220,37 @@ def test_an_update_of_the_same_python_does_not_remove_the_environment(
     assert (made / "venv" / "library").exists()
 
 
+@pytest.mark.parametrize("is_another", [False, True])
+def test_an_environment_is_not_made_anew_under_what_runs_from_it(
+    bootstrap: ModuleType,
+    made: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    is_another: bool,
+) -> None:
+    """As by `./acts echo` beside a robot that moves, after `git pull`."""
+    library = made / "venv" / "library"
+    bootstrap.LOCK.write_text("another==1.0\n")
+    if is_another:
+        bootstrap.PYTHON_RECORD.write_text("/of/another/python3")
+    with library.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ):
+        if is_another:
+            with pytest.raises(bootstrap.SetupError, match=rf"\(ps {os.getpid()}\) needs .* end that first"):
+                bootstrap.create_venv()
+        else:
+            bootstrap.create_venv()
+            assert f"not brought up to date: what runs from here (ps {os.getpid()}) " in capsys.readouterr().err
+        assert library.exists()
+    removed: list[bool] = []
+    for name in ("run", "relocate_cmake_exports", "read_paths_as_utf8"):
+        monkeypatch.setattr(bootstrap, name, lambda *_, **__: removed.append(not library.exists()))
+    (made / "requirements.lock").write_text("another==2.0\n")
+    with pytest.raises(FileNotFoundError):  # the new one, which nothing has made here
+        bootstrap.create_venv()
+    assert removed
+    assert all(removed)
+
+
 def test_without_network_the_last_line_speaks_of_it(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
