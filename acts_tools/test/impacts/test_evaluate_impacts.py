@@ -15,7 +15,7 @@ import pytest
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_sim.impacts import Scene
 from acts_tools.cli import main
-from acts_tools.evaluate.impacts import plays
+from acts_tools.evaluate.impacts import plays, ricochet_command
 from acts_tools.evaluate.impacts.impacts_command import TOUCH_MS, drops_of, seen_by_us
 from acts_tools.evaluate.impacts.ricochet_command import numbered_throw, told_by_us
 
@@ -89,6 +89,19 @@ def test_of_several_touches_of_a_throw_the_direction_of_the_strongest_counts(mon
     assert told_by_us(ours, shown, 1, 90) == pytest.approx((1.0, 2.0))
     told[1] = touch(2, 3.0, 0.0, UNKNOWN_DIRECTION_SD_RAD)
     assert told_by_us(ours, shown, 1, 90) is None
+
+
+def test_the_throws_of_a_speed_that_is_named_twice_count_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ricochet_command, "told_by_us", lambda *_: (1.0, 2.0))
+    monkeypatch.setattr(ricochet_command.PaperDirections, "direction_rad", lambda *_: None)
+    out = tmp_path / "ricochet.json"
+    assert main(["evaluate", "ricochet", "--seeds", "1", "--speeds", "2", "2.0", "--json", str(out)]) == 0
+    report = json.loads(out.read_text())
+    assert report["speeds"] == [2]
+    *angles, whole = report["results"]
+    assert len(angles) == whole["throws"] == 8
+    # By Wilson, of 8 of 8; of 16 of 16 it would be 0.81.
+    assert whole["acts"]["within_1_sigma_95"] == pytest.approx([0.676, 1.0], abs=0.001)
 
 
 def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) -> None:

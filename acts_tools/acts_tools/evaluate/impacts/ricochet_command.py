@@ -123,16 +123,18 @@ class PaperDirections:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    about = {name: getattr(arguments, name) for name in ("m", "speeds", "noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, about)
+    # A speed that is named twice is one: its throws would count twice.
+    speeds = list(dict.fromkeys(arguments.speeds))
+    about = {name: getattr(arguments, name) for name in ("m", "noise_counts", "seed", "seeds")}
+    results = report.Results(arguments.json, {"speeds": speeds, **about})
     paper = PaperDirections(arguments.m, arguments.noise_counts)
     ours = plays.Ours(SCHEME, arguments.m, arguments.noise_counts)
     all_paper: list[float | None] = []
     all_ours: list[tuple[float, float] | None] = []
     print(_TITLE, flush=True)
-    with Progress("ricochet", len(arguments.speeds) * len(ANGLES_DEG) * arguments.seeds) as progress:
+    with Progress("ricochet", len(speeds) * len(ANGLES_DEG) * arguments.seeds) as progress:
         done = 0
-        for speed_m_s in arguments.speeds:
+        for speed_m_s in speeds:
             for angle_deg in ANGLES_DEG:
                 of_paper: list[float | None] = []
                 of_ours: list[tuple[float, float] | None] = []
