@@ -39,6 +39,16 @@ def test_a_hit_and_an_untouched_skin_are_reported(tmp_path: Path) -> None:
     assert recording.max() > 200
 
 
+def test_an_untouched_skin_is_the_same_whichever_others_are_watched(tmp_path: Path) -> None:
+    out, told = tmp_path / "wearables.json", []
+    for names in (["leg"], ["helmet", "leg"]):
+        words = ["evaluate", "wearables", "--scene", "--untouched", *names, "--minutes", "0.02", "--json", str(out)]
+        assert main(words) == 0
+        told.append(json.loads(out.read_text())["results"][-1])
+    assert told[0]["untouched"] == "leg"
+    assert told[0] == told[1]
+
+
 def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "wearables", "--scene", "--untouched"]) == 1
     assert "--scene and --untouched name nothing; name a scene or a skin" in capsys.readouterr().err

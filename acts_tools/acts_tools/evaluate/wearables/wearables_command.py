@@ -93,8 +93,9 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.untouched:
         print(_UNTOUCHED_TITLE, flush=True)
     seconds = max(round(60 * arguments.minutes), 1)
-    for number, name in enumerate(arguments.untouched):
-        rng = np.random.default_rng([arguments.seed, number])
+    for name in arguments.untouched:
+        # The same skin, whichever others are watched.
+        rng = np.random.default_rng([arguments.seed, SKINS.index(name)])
         with Progress(name, seconds) as progress:
             alone = watch_untouched(name, seconds, arguments.m, arguments.noise_counts, rng, progress.show)
         results.add(
