@@ -284,6 +284,14 @@ def test_the_links_folder_is_made_for_its_user_alone(tmp_path: Path) -> None:
         assert board.link.parent.stat().st_mode & 0o777 == 0o700
 
 
+def test_no_folder_is_made_that_is_named_as_the_home_is_by_a_shell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "the folder ~/run begins with ~" in refusal(Path("~/run/board"), 2)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_folders_that_others_have_a_hand_in_are_refused(tmp_path: Path) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()

@@ -70,6 +70,11 @@ std::string process_name(const std::string& pid) {
 }
 
 void make_private(const fs::path& folder) {
+  if (folder.string().front() == '~') {
+    // Who removed a folder of that name from a command line would remove his home.
+    refuse<OptionError>("the folder " + folder.string() +
+                        " begins with ~, which no shell replaces there; write $HOME, or ");
+  }
   fs::path made;
   for (const fs::path& part : folder) {
     made /= part;

@@ -43,9 +43,14 @@ def make_private(folder: Path) -> None:
     Raises
     ------
     SettingsError
-        It cannot be made, is a symbolic link, belongs to another user, or is writable for everybody. Folders with the
-        sticky bit, like ``/tmp``, are allowed.
+        It cannot be made, begins with ``~``, is a symbolic link, belongs to another user, or is writable for everybody.
+        Folders with the sticky bit, like ``/tmp``, are allowed.
     """
+    if str(folder).startswith("~"):
+        # Who removed a folder of that name from a command line would remove his home.
+        raise SettingsError(
+            f"the folder {folder} begins with ~, which no shell replaces there; write $HOME, or {_OTHER}"
+        )
     try:
         for path in (*reversed(folder.parents), folder):
             with suppress(FileExistsError):

@@ -57,6 +57,16 @@ def test_a_link_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
         make_private(link)
 
 
+def test_no_folder_is_made_that_is_named_as_the_home_is_by_a_shell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As of `run_dir:=~/run`; `rm -r ~` would remove more than that."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ActsError, match=r"the folder ~/run begins with ~.* write \$HOME, or give another folder"):
+        make_private(Path("~/run"))
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_folder_that_anybody_may_write_to_is_refused_but_not_one_like_tmp(tmp_path: Path) -> None:
     tmp_path.chmod(0o777)
     with pytest.raises(ActsError, match="anybody may write to the folder"):
