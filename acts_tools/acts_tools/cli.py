@@ -102,12 +102,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         # Any file may be the one that fills the disk, or that has a name that cannot be; where a command does not say
         # which, neither can this.
-        is_full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        is_full = error.errno in (errno.ENOSPC, errno.EDQUOT) or _is_without_temporary_folder(error)
         if not is_full and error.errno not in _OF_NAMES:
             raise
         about = f"{error.filename}: " if error.filename else ""
         print(f"error: {about}{error.strerror}{': make room and try again' if is_full else ''}", file=sys.stderr)
         return 1
+
+
+def _is_without_temporary_folder(error: OSError) -> bool:
+    """Whether it is that of `tempfile` where it can write nowhere."""
+    return isinstance(error, FileNotFoundError) and error.filename is None and "temporary directory" in str(error)
 
 
 class Parser(argparse.ArgumentParser):

@@ -144,7 +144,7 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
 
     timeouts_s = [_seconds(name, values.get(name, "5")) for name in _TIMEOUTS]
     # Made at the first params file: a launcher that is killed leaves it behind. Nobody else can know its name.
-    folder = Path(tempfile.gettempdir()) / f"acts_launch_{secrets.token_hex(8)}"
+    folder = _temporary_folder() / f"acts_launch_{secrets.token_hex(8)}"
     try:
         plan = evaluate(file, values, os.environ, folder)
         _require_declared(set(values) - set(_TIMEOUTS), plan.declared, file)
@@ -171,6 +171,14 @@ def _launch(file: Path, values: dict[str, str], only_print: bool) -> int:
             console.close()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _temporary_folder() -> Path:
+    try:
+        return Path(tempfile.gettempdir())
+    except FileNotFoundError:
+        # The disk is full, and most launch files need none: what moves a robot can be launched all the same.
+        return Path("/tmp")
 
 
 def _require_declared(given: set[str], declared: set[str], file: Path) -> None:

@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -86,6 +87,31 @@ def test_a_full_disk_is_told_in_one_line(
     monkeypatch.setattr("acts_tools.doctor.command.run", fill_the_disk)
     assert main(["doctor"]) == 1
     assert capsys.readouterr().err == f"error: {about}No space left on device: make room and try again\n"
+
+
+@pytest.fixture
+def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No folder for temporary files, as on a full disk."""
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: ["/proc/nowhere"])
+
+
+def test_without_room_for_temporary_files_it_is_told_in_one_line(
+    nowhere: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("acts_tools.doctor.command.run", lambda _: tempfile.mkdtemp())
+    assert main(["doctor"]) == 1
+    told = "error: No usable temporary directory found in ['/proc/nowhere']: make room and try again\n"
+    assert capsys.readouterr().err == told
+
+
+def test_without_room_for_temporary_files_what_needs_none_is_launched(
+    prefix: Prefix, nowhere: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prefix.script("node", "#!/bin/sh\nexit 0\n")
+    prefix.launch("it.launch.xml", '<node pkg="fake" exec="node"/>')
+    assert main(["launch", "--own", "fake", "it.launch.xml"]) == 0
+    assert "[node-1]: process has finished cleanly" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
