@@ -32,6 +32,13 @@ def test_each_method_is_scored_at_its_own_rate(name: str, tmp_path: Path, monkey
     assert used_hz == _RATES_HZ
 
 
+def test_the_note_on_the_taxels_that_are_measured_is_of_the_curve(tmp_path: Path) -> None:
+    (panel,) = FIGURES["S2"].measure(Run(tmp_path))
+    measured = next(curve.y for curve in panel.curves if curve.label == "ACTS, taxels measured")
+    low, high = (f"{round(rate, -2):,.0f}" for rate in (min(measured), max(measured)))
+    assert f"measured are {low} to {high} taxels/s" in " ".join(FIGURES["S2"].notes)
+
+
 def test_a_method_with_a_memory_is_not_given_fewer_frames(tmp_path: Path) -> None:
     run = Run(tmp_path, fast=True)
     for method in ("paper", "linear", "dct", "haar"):
