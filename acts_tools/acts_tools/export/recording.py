@@ -117,10 +117,11 @@ class Recording:
         first_ns, made = 0, 0
         before: Seen | None = None
         for seen in self._ascending():
-            if before is not None and seen.stamp_ns - before.stamp_ns > _PAUSE_MAX_S * NS_PER_S and self.rate_hz:
-                pause_s = (seen.stamp_ns - before.stamp_ns) * 1e-9
+            # Before all topics have come once, nothing is repeated.
+            pause_ns = 0 if before is None else seen.stamp_ns - max(before.stamp_ns, begin_ns)
+            if self.rate_hz and pause_ns > _PAUSE_MAX_S * NS_PER_S:
                 raise RecordingError(
-                    f"'{self.name}' has no frame of {self.skin or '/'} for {pause_s:.0f} s; "
+                    f"'{self.name}' has no frame of {self.skin or '/'} for {pause_ns * 1e-9:.0f} s; "
                     f"rows are repeated for at most {_PAUSE_MAX_S:.0f} s: export it with --rate 0, or record less"
                 )
             if seen.stamp_ns < begin_ns:

@@ -140,6 +140,17 @@ def test_a_long_pause_is_not_filled(tmp_path: Path) -> None:
     assert len(rows_of(path)[0]) == 2
 
 
+def test_a_long_pause_before_all_topics_have_come_is_not_to_be_filled(tmp_path: Path) -> None:
+    """As where the skin was tried before the robot was switched on."""
+    frames = [("/plate/image_raw", image(time_ms, pressed(1))) for time_ms in (0, 20, 100_000, 100_020, 100_040)]
+    bag = write_bag(tmp_path / "bag", *frames[:2], ("/joint_states", joints(100_005, knuckle=1.0)), *frames[2:])
+    rows, _ = rows_of(bag, rate_hz=100.0)
+    assert [round(row.image_age_s, 3) for row in rows] == [0.005, 0.015, 0.005, 0.015]
+    bag = write_bag(tmp_path / "other", *frames[:2], ("/joint_states", joints(10_000, knuckle=1.0)), *frames[2:])
+    with pytest.raises(RecordingError, match="has no frame of /plate for 90 s; rows are repeated for at most 60 s"):
+        rows_of(bag, rate_hz=100.0)
+
+
 def test_frames_that_go_back_in_time_are_left_out(tmp_path: Path) -> None:
     path = write_bag(tmp_path / "b", *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20, 20, 5, 30)))
     rows, left_out = rows_of(path)
