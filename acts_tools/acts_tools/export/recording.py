@@ -135,6 +135,8 @@ class Recording:
             else:
                 first_ns = first_ns or max(seen.stamp_ns, begin_ns)
                 while before is not None and (due_ns := self._due_ns(first_ns, made)) < seen.stamp_ns:
+                    # The last frame before all else has a row after all: it is the newest one then.
+                    self.early -= not made and before.stamp_ns < begin_ns
                     yield self._row(due_ns, first_ns, before)
                     made += 1
             before = seen

@@ -125,7 +125,8 @@ def test_each_frame_has_what_was_newest_when_it_was_measured(bag: Path) -> None:
 
 
 def test_rows_at_a_rate_repeat_the_newest_frame_and_say_how_old_it_is(bag: Path) -> None:
-    rows, _ = rows_of(bag, rate_hz=250.0)
+    rows, left_out = rows_of(bag, rate_hz=250.0)
+    assert left_out == 2, "frames from before all joints had been told, but for the newest"
     assert [row.stamp_ns // 1_000_000 - BEGIN_MS for row in rows] == [25, 29, 33, 37, 41, 45, 49]
     assert [row.image_age_s for row in rows] == pytest.approx([0.005, 0.009, 0.003, 0.007, 0.001, 0.005, 0.009])
     assert [int(row.image[10].argmax()) - 8 for row in rows] == [2, 2, 3, 3, 4, 4, 4]
