@@ -74,7 +74,8 @@ class Player:
         self._say = say
         self._publishers: dict[str, Publisher] = {}
         types = bag.topics()
-        for topic in types if topics is None else topics:
+        # One that is named twice would have two publishers, of which only one says something.
+        for topic in dict.fromkeys(types if topics is None else topics):
             if topic not in types:
                 raise RecordingError(f"the bag has no topic '{topic}' (it has: {', '.join(sorted(types)) or 'none'})")
             # As where two bags were merged; the messages do not tell which of them they are of.

@@ -77,6 +77,15 @@ def test_messages_are_played_at_their_times_by_absolute_deadlines(
         assert player.report.published == 7
 
 
+def test_a_topic_that_is_named_twice_has_one_publisher(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_bag(tmp_path / "bag", {"/twice": "std_msgs/msg/String"}, [1000], monkeypatch)
+    with open_bag(tmp_path / "bag") as bag:
+        Player(probe.node, bag, ["/twice", "/twice"], print)
+    assert [publisher.topic for publisher in probe.node.publishers].count("/twice") == 1
+
+
 def test_a_pause_is_told(probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # As of a robot whose clock began in 1970, and was set while it recorded.
     make_bag(tmp_path / "bag", {"/a": "std_msgs/msg/String"}, [1000, 6000, 1_600_000_000_000], monkeypatch)
