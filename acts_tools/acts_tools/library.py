@@ -86,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         When the frames cannot be read, have no labels, or the file cannot be written.
     """
     paths: list[Path] = arguments.files or ([] if arguments.frames is None else [arguments.frames])
-    require_writable(arguments.output, reads=paths)
+    require_writable(arguments.output, takes_stream=False, reads=paths)
     if paths:
         refuse_unused(arguments, f"with --{'files' if arguments.files else 'frames'}", "presses", "seed")
         frames, labels, source = _recorded(paths, arguments)

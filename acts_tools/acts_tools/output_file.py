@@ -36,7 +36,9 @@ def make_folder(folder: Path, option: str) -> None:
         ) from error
 
 
-def require_writable(path: Path | None, *, makes_folder: bool = False, reads: Sequence[Path] = ()) -> None:
+def require_writable(
+    path: Path | None, *, makes_folder: bool = False, takes_stream: bool = True, reads: Sequence[Path] = ()
+) -> None:
     """Raise an error, before any work, if a file for results cannot be written; None is allowed.
 
     An existing file is not changed.
@@ -47,6 +49,8 @@ def require_writable(path: Path | None, *, makes_folder: bool = False, reads: Se
         The file.
     makes_folder : bool
         Whether to make its folder.
+    takes_stream : bool
+        Whether it may also be a pipe or a device, which `write_whole` does not write.
     reads : sequence of Path
         Files that the command reads.
 
@@ -67,6 +71,8 @@ def require_writable(path: Path | None, *, makes_folder: bool = False, reads: Se
         if makes_folder:
             path.parent.mkdir(parents=True, exist_ok=True)
         is_new = not path.exists()
+        if not (is_new or takes_stream or path.is_file() or path.is_dir()):
+            raise RecordingError(f"{path}: not a regular file, so nothing is written to it; give another name")
         path.open("ab").close()
         if is_new:
             # A link to a file that does not exist yet stays.
@@ -82,7 +88,7 @@ def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
 
     Matplotlib would add an end to a name without one, and so write beside a folder of that name.
     """
-    require_writable(path, makes_folder=makes_folder)
+    require_writable(path, makes_folder=makes_folder, takes_stream=False)
     if path is not None and path.suffix.lower() not in _PICTURES:
         raise RecordingError(f"{path}: no name of a picture; allowed are names that end in {', '.join(_PICTURES)}")
 

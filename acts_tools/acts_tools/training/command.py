@@ -175,4 +175,4 @@ def _check(arguments: argparse.Namespace) -> None:
         refuse_unused(arguments, "with --frames", "presses")
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
-    require_writable(arguments.output, reads=arguments.frames or ())
+    require_writable(arguments.output, takes_stream=False, reads=arguments.frames or ())

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,32 @@ def test_a_name_that_is_too_long_is_told_in_one_line(
     assert main([*words, str(path)]) == 1
     assert f"error: {path}: cannot be written (File name too long)" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "train --presses 8 --patches 8 --atoms 2 --sparsity 1 --iterations 1 -o",
+        "library --presses 1 --objects circle spoon -o",
+        "evaluate gait --frames nothing.npz --json",
+    ],
+)
+def test_what_cannot_be_written_to_a_pipe_is_refused_before_any_work(
+    words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        assert main([*words.split(), str(pipe)]) == 1
+    finally:
+        os.close(reader)
+    said = capsys.readouterr()
+    # Reports as JSON can be.
+    about = "nothing.npz" if "--json" in words else f"{pipe}: not a regular file, so nothing is written to it"
+    assert said.err.startswith(f"error: {about}")
+    assert said.out == ""
+    assert list(tmp_path.iterdir()) == [pipe]
 
 
 def test_a_link_to_a_file_that_is_not_there_yet_stays(tmp_path: Path) -> None:

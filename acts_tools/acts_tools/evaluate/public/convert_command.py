@@ -37,7 +37,7 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    require_writable(arguments.output)
+    require_writable(arguments.output, takes_stream=False)
     recordings, live, rate_hz = _SETS[arguments.which](arguments.source)
     length = np.array([len(frames) for _, frames in recordings])
     # An open file: numpy would append .npz to any other name.
