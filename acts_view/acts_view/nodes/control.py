@@ -82,17 +82,25 @@ class Control:
     def take(self, request: Request, answer: Answer) -> None:
         """Take what a page asks for; on the server's thread.
 
+        A service is called from there: the executor's thread may wait for a disk, as while it records, and a stop with
+        it. All services are, so that none overtakes another.
+
         Raises
         ------
         ViewRequestError
-            Too much waits already, and it is none of `STOPS`.
+            Too much waits already, and it is none of `STOPS`; or the service is not there.
         """
         if request.do not in STOPS and len(self._requests) + len(self._calls) >= _WAITING_MAX:
             raise ViewRequestError(f"{_WAITING_MAX} requests wait for the nodes already; try again")
-        self._requests.append((request, answer))
+        if request.do in TRIGGERS:
+            self._call(f"{request.skin}/{TRIGGERS[request.do]}", Trigger.Request(), answer, _of_trigger)
+        elif request.do == "set":
+            self._set(request, answer)
+        else:
+            self._requests.append((request, answer))
 
     def step(self) -> None:
-        """Pass on what was asked for, and give up what nobody answers; often, on the executor's thread."""
+        """Begin and end recordings, and give up what nobody answers; often, on the executor's thread."""
         while self._requests:
             request, answer = self._requests.popleft()
             try:
@@ -128,27 +136,14 @@ class Control:
         self._settings = {driver: self._settings.get(driver, {}) for driver in drivers}
         return {
             "offers": [*offers, *(["set", driver] for driver in drivers)],
-            "settings": {driver: values for driver, values in self._settings.items() if values},
+            # A copy: what is answered at once is read on the server's thread.
+            "settings": {driver: values for driver, values in list(self._settings.items()) if values},
             "schemes": list(SCHEME_NUMBERS),
             "recording": self._recording.state(),
         }
 
     def _begin(self, request: Request, answer: Answer) -> None:
-        if request.do in TRIGGERS:
-            self._call(f"{request.skin}/{TRIGGERS[request.do]}", Trigger, Trigger.Request(), answer, _of_trigger)
-        elif request.do == "set":
-            asked = SetParameters.Request(parameters=[_parameter(request)])
-
-            def read(response: SetParameters.Response) -> tuple[bool, str]:
-                is_set, sentence = _of_set(response)
-                if is_set:
-                    # What is known is of before, and so may be what is being answered.
-                    self._settings.pop(request.skin, None)
-                    self._ask_settings(request.skin)
-                return is_set, sentence
-
-            self._call(f"{request.skin}/{_SET}", SetParameters, asked, answer, read)
-        elif request.do == "record":
+        if request.do == "record":
             answer(True, self._recording.start())
         elif request.do == "stop_recording":
             answer(True, self._recording.stop())
@@ -156,14 +151,26 @@ class Control:
             known = ", ".join([*TRIGGERS, "set", "record", "stop_recording"])
             raise ViewRequestError(f"what is asked for is one of {known}; not '{request.do}'")
 
-    def _call(
-        self, service: str, kind: type, asked: object, answer: Answer, read: Callable[[Any], tuple[bool, str]]
-    ) -> None:
+    def _set(self, request: Request, answer: Answer) -> None:
+        asked = SetParameters.Request(parameters=[_parameter(request)])
+
+        def read(response: SetParameters.Response) -> tuple[bool, str]:
+            is_set, sentence = _of_set(response)
+            if is_set:
+                # What is known is of before, and so may be what is being answered.
+                self._settings.pop(request.skin, None)
+                self._ask_settings(request.skin)
+            return is_set, sentence
+
+        self._call(f"{request.skin}/{_SET}", asked, answer, read)
+
+    def _call(self, service: str, asked: object, answer: Answer, read: Callable[[Any], tuple[bool, str]]) -> None:
         # Only what was found: a page names no service that the graph does not have.
         if service not in self._services:
             raise ViewRequestError(f"there is no service {service}: is the node running?")
-        client = self._client(service, kind)
-        if not client.service_is_ready():
+        # Made by `look`, of all that is offered.
+        client = self._clients.get(service)
+        if client is None or not client.service_is_ready():
             raise ViewRequestError(f"{service} is not reached: has its node ended? If it has just begun, try again")
         future = client.call_async(asked)
         call = _Call(client, future, answer, service, time.monotonic() + self._patience_s)

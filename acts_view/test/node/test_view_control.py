@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ from websockets.typing import Origin
 
 from acts_msgs.msg import Contact
 from acts_ros import qos
+from acts_ros.polled import PolledService
 from acts_view.nodes import control
 from acts_view.nodes.view_node import ViewNode
 
@@ -64,8 +66,8 @@ class Bench:
         self.driver.add_on_set_parameters_callback(_refuse_thirteen)
         self.driver.create_publisher(Contact, "contact", qos.STREAM)
         # Nobody spins it: its service is there, and says nothing.
-        self._stuck = Node("driver", namespace="/stuck", context=self._context)
-        self._stuck.create_service(Trigger, "~/tare", self.callback("stuck", "tare"))
+        self.stuck = Node("driver", namespace="/stuck", context=self._context)
+        self.stuck.create_service(Trigger, "~/tare", self.callback("stuck", "tare"))
         options = [Parameter("port", value=0), Parameter("control", value=control)]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
         if self.view._control is not None:
@@ -88,7 +90,7 @@ class Bench:
     def close(self) -> None:
         self._spinning.end()
         self.view.close()
-        for node in (*self._nodes, self._stuck):
+        for node in (*self._nodes, self.stuck):
             node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
@@ -178,6 +180,27 @@ def test_a_stop_is_done_where_the_node_refuses_all_else_for_what_waits(
         assert "requests wait" in header_where(client, lambda header: header.get("id") == 1)["text"]
         assert header_where(client, lambda header: header.get("id") == 2)["done"]
     assert bench.called == ["hand_reflexes/stop"]
+
+
+def test_a_stop_does_not_wait_for_the_disk_of_a_recording(
+    begin: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = begin(control=True)
+    disk = threading.Event()
+    monkeypatch.setattr(bench.view._recording, "start", lambda: str(disk.wait(DEADLINE_S)))
+    # Not on the executor, which waits for the disk.
+    stopped = PolledService(bench.stuck.create_service(Trigger, "/slow/hand_reflexes/stop", bench.callback("slow", "")))
+    with bench.connect() as client:
+        header_where(client, lambda header: ["stop_grasp", "/slow"] in header.get("offers", []))
+        client.send('{"id":1,"do":"record"}')
+        client.send('{"id":2,"do":"stop_grasp","skin":"/slow"}')
+        try:
+            _, asked = wait_for(stopped.take, "the stop", DEADLINE_S)
+            assert not disk.is_set()
+            stopped.answer(Trigger.Response(success=True, message="stopped"), asked)
+        finally:
+            disk.set()
+        assert header_where(client, lambda header: header.get("id") == 2)["text"] == "stopped"
 
 
 def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench]) -> None:
