@@ -15,7 +15,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from acts_core.errors import ViewRequestError
-from acts_view.web.requests import STOPS, Answer, Request, read_request
+from acts_view.web.requests import LATE_S, STOPS, Answer, Request, read_request
 from acts_view.web.server import MAX_UNANSWERED, ViewServer
 
 DEADLINE_S = 30.0
@@ -37,6 +37,8 @@ def test_a_request_is_read_as_it_is_and_an_odd_one_refused() -> None:
         '{"id":1,"do":"seek","value":1e999}',
         '{"id":1,"do":"seek","value":[1]}',
         '{"id":1,"do":"seek","more":1}',
+        '{"id":1,"do":"grasp","asked_s":"now"}',
+        '{"id":1,"do":"grasp","asked_s":NaN}',
         '{"id":true,"do":"seek"}',
         '{"do":"seek"}',
         "[" * 900,
@@ -74,3 +76,29 @@ def test_what_stops_something_is_handed_on_though_other_requests_wait() -> None:
             assert (refused["id"], refused["done"]) == (90, False)
     finally:
         server.close()
+
+
+def test_what_was_asked_for_long_ago_is_not_done_unless_it_stops_something() -> None:
+    done: list[str] = []
+
+    def do(request: Request, answer: Answer) -> None:
+        done.append(request.do)
+        answer(True, "done")
+
+    server = ViewServer("127.0.0.1", 0, on_clients=lambda _: None, log=print, on_request=do)
+    origin = server.address.url.rstrip("/")
+    try:
+        server.show_status({"skins": []})
+        with connect(f"{origin.replace('http', 'ws')}/stream", origin=Origin(origin), compression=None) as page:
+            status, _ = decode(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+            long_ago_s = status["clock_s"] - LATE_S
+            for number, (what, asked_s) in enumerate(
+                [("grasp", long_ago_s), ("stop_grasp", long_ago_s), ("tare", None)]
+            ):
+                page.send(json.dumps({"id": number, "do": what, "asked_s": asked_s}))
+            answers = [decode(page.recv(DEADLINE_S))[0] for _ in range(3)]  # type: ignore[arg-type]
+    finally:
+        server.close()
+    assert [answer["done"] for answer in answers] == [False, True, True]
+    assert "s after it was asked for" in answers[0]["text"]
+    assert done == ["stop_grasp", "tare"]

@@ -1,11 +1,12 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A page whose line carries little at a time."""
+"""Lines of pages that carry little at a time, or stand still for a while."""
 
 from __future__ import annotations
 
 import socket
+import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -104,3 +105,49 @@ def over_a_slow_line(
         assert line.longest_s > limit_s / 3, f"closed after {line.got} bytes: {log}"
         log.clear()
     pytest.fail("the machine stood still in each attempt")
+
+
+class StillLine:
+    """Passes on what pages and a server send, unless it stands still; nothing is lost."""
+
+    def __init__(self, port: int) -> None:
+        self._server_port = port
+        self._moves = threading.Event()
+        self._moves.set()
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self._ends: list[socket.socket] = []
+        self.url = f"http://127.0.0.1:{self._listener.getsockname()[1]}/"
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def stand_still(self) -> None:
+        """Pass on nothing."""
+        self._moves.clear()
+
+    def go_on(self) -> None:
+        """Pass on all that has come meanwhile."""
+        self._moves.set()
+
+    def close(self) -> None:
+        """Cut it."""
+        self.go_on()
+        for end in (self._listener, *self._ends):
+            # What waits for it wakes up by that.
+            with suppress(OSError):
+                end.shutdown(socket.SHUT_RDWR)
+            end.close()
+
+    def _accept(self) -> None:
+        with suppress(OSError):
+            while True:
+                page, _ = self._listener.accept()
+                server = socket.create_connection(("127.0.0.1", self._server_port))
+                self._ends += [page, server]
+                for pair in ((page, server), (server, page)):
+                    threading.Thread(target=self._pass_on, args=pair, daemon=True).start()
+
+    def _pass_on(self, source: socket.socket, target: socket.socket) -> None:
+        with suppress(OSError):
+            while piece := source.recv(65536):
+                self._moves.wait()
+                target.sendall(piece)
+            target.shutdown(socket.SHUT_WR)

@@ -9,7 +9,7 @@ import { Diagnostics } from "./diagnostics.js";
 import { Panels } from "./panels.js";
 import { Recording } from "./recording.js";
 import { Replay } from "./replay.js";
-import { answered, forgetAll, useConnection } from "./requests.js";
+import { answered, forgetAll, heardClock, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
 import { nameOf } from "./words.js";
 
@@ -43,6 +43,7 @@ function onMessage(message) {
   else if (message.type === "frame") panels.of(message.skin).take(message);
   else if (message.type === "answer") answered(message);
   else if (message.type === "status") {
+    heardClock(message.clock_s);
     version ??= message.version;
     // The server was started again with another page, as after an update; what is paused is looked at first.
     if (message.version !== version && !panels.isHeld) location.reload();

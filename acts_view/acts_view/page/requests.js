@@ -7,6 +7,7 @@ const PATIENCE_MS = 15000;
 
 let send = () => false;
 let number = 0;
+let ahead_s = null; // of the server's clock before this page's
 const waiting = new Map();
 
 /** Ask through this from now on. */
@@ -14,13 +15,20 @@ export function useConnection(sender) {
   send = sender;
 }
 
+/** The server has told its clock. */
+export function heardClock(clock_s) {
+  ahead_s = clock_s - performance.now() / 1000;
+}
+
 /** Ask for something; resolves to {done, text}, whatever happens. */
 export function ask(what, details = {}) {
   number += 1;
   const id = number;
-  if (!send({ id, do: what, ...details })) return Promise.resolve({ done: false, text: "the server is gone" });
+  // A line may stand still: the server does not do what comes late.
+  const asked_s = ahead_s === null ? null : Number((ahead_s + performance.now() / 1000).toFixed(3));
+  if (!send({ id, do: what, asked_s, ...details })) return Promise.resolve({ done: false, text: "the server is gone" });
   return new Promise((resolve) => {
-    const timer = setTimeout(() => settle(id, { done: false, text: "the server did not answer" }), PATIENCE_MS);
+    const timer = setTimeout(() => settle(id, { done: false, text: "the server did not answer; it may still be done" }), PATIENCE_MS);
     waiting.set(id, { resolve, timer });
   });
 }
@@ -32,7 +40,9 @@ export function answered(message) {
 
 /** The connection is lost: nothing that waits will be answered. */
 export function forgetAll() {
-  for (const id of waiting.keys()) settle(id, { done: false, text: "the connection was lost before the answer" });
+  for (const id of waiting.keys()) settle(id, { done: false, text: "the connection was lost before the answer; it may be done all the same" });
+  // Another server may follow.
+  ahead_s = null;
 }
 
 function settle(id, answer) {

@@ -72,7 +72,7 @@ class Display:
 
     def __init__(self) -> None:
         self._skins: dict[str, _Skin] = {}
-        self._status = b""
+        self._status: dict[str, Any] | None = None
 
     def show_frame(self, name: str, frame: Frame, samples: Sequence[Sample]) -> None:
         """Take the newest state of a skin, and what has come since the last one."""
@@ -88,7 +88,7 @@ class Display:
 
     def show_status(self, status: dict[str, Any]) -> None:
         """Take what is said of everything together, as JSON can say it; often enough, it tells a client we live."""
-        self._status = encode({"type": "status", **status})
+        self._status = status
 
     def reader(self) -> Reader:
         """A place to read from, for one client."""
@@ -108,14 +108,15 @@ class Reader:
         self._described: dict[str, bytes] = {}
         self._frames: dict[str, int] = {}
         self._places: dict[str, Place] = {}
-        self._status = b""
+        self._status: dict[str, Any] | None = None
 
     def news(self) -> Iterator[bytes]:
         """The messages of what is newest and was not read yet; each is made when it is asked for."""
         display = self._display
-        if self._status is not display._status:
+        if display._status is not None and self._status is not display._status:
             self._status = display._status
-            yield self._status
+            # The clock as it is now, also of a status that is old: by it a page tells when it has asked for something.
+            yield encode({"type": "status", "clock_s": time.monotonic(), **self._status})
         for name, skin in list(display._skins.items()):
             if self._described.get(name) is not skin.description:
                 self._described[name] = skin.description

@@ -19,7 +19,10 @@ Number = float | int
 STOPS = frozenset({"stop_balancing", "stop_grasp", "stop_recording"})
 """What is never refused because other requests wait for their answers."""
 
-_KEYS = {"id", "do", "skin", "name", "value"}
+LATE_S = 3.0
+"""What a page has asked for longer ago is done only if it is one of `STOPS` [s]."""
+
+_KEYS = {"id", "do", "skin", "name", "value", "asked_s"}
 _LONGEST = 200
 _LARGEST = 1e15
 
@@ -40,6 +43,8 @@ class Request:
         Of a parameter; empty: of none.
     value : float, int, str or None
         For it; numbers are finite.
+    asked_s : float or None
+        When, by the clock that the server tells pages [s]; None: the page does not know it.
     """
 
     number: int
@@ -47,6 +52,22 @@ class Request:
     skin: str = ""
     name: str = ""
     value: Number | str | None = None
+    asked_s: float | None = None
+
+    def lateness(self, now_s: float) -> str:
+        """Why it is not acted on, in words: it has been on its way for long; empty where it is.
+
+        What is sent into a line that stands still arrives when that goes on, however long after. By then the page has
+        given it up, and nobody expects a robot to move.
+
+        Parameters
+        ----------
+        now_s : float
+            By the clock that the server tells pages [s].
+        """
+        if self.asked_s is None or self.do in STOPS or now_s - self.asked_s <= LATE_S:
+            return ""
+        return f"not done: it came {now_s - self.asked_s:.1f} s after it was asked for; if you still want it, ask again"
 
 
 RequestHandler = Callable[[Request, Answer], None]
@@ -70,8 +91,16 @@ def read_request(data: str | bytes) -> Request:
     number = content.get("id")
     if not isinstance(number, int) or isinstance(number, bool) or not 0 <= number < 1 << 53:
         raise ViewRequestError("a request has an id, a whole number from 0 on")
+    asked_s = _value(content.get("asked_s"))
+    if isinstance(asked_s, str):
+        raise ViewRequestError("asked_s of a request is a time in seconds")
     return Request(
-        number, _text(content, "do"), _text(content, "skin"), _text(content, "name"), _value(content.get("value"))
+        number,
+        _text(content, "do"),
+        _text(content, "skin"),
+        _text(content, "name"),
+        _value(content.get("value")),
+        asked_s,
     )
 
 

@@ -324,6 +324,9 @@ class ViewServer:
         if self._on_request is None:
             self._answer_to(client, request.number, False, READ_ONLY)
             return
+        if lateness := request.lateness(time.monotonic()):
+            self._answer_to(client, request.number, False, lateness)
+            return
         counted = 0 if request.do in STOPS else 1
         if counted and client.unanswered >= MAX_UNANSWERED:
             self._answer_to(client, request.number, False, f"{MAX_UNANSWERED} requests wait for their answers already")

@@ -5,16 +5,19 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
+from view_slow_line import StillLine
 from waiting import wait_for
 
 from acts_view.nodes.control import RANGES
-from acts_view.web.requests import Answer, Number, Request
+from acts_view.web.requests import LATE_S, Answer, Number, Request
 from acts_view.web.server import READ_ONLY
 
 if TYPE_CHECKING:
@@ -211,3 +214,45 @@ def test_an_answer_that_comes_late_does_not_take_the_place_of_another(
     expect(lines).to_have_text(["Calibrate, /plate: calibrated", "Stop balancing, /plate: it is not reached"])
     page.click("[data-do=calibrate]")
     expect(lines).to_have_text(["Calibrate, /plate: asked …"])
+
+
+def test_a_robot_is_not_started_when_the_line_goes_on(
+    play: Callable[..., Player],
+    open_page: Callable[..., Page],
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
+) -> None:
+    player = play()
+    done: list[str] = []
+    pages: list[int] = []
+
+    def do(asked: Request, answer: Answer) -> None:
+        done.append(asked.do)
+        answer(True, "balancing")
+
+    monkeypatch.setattr(player.server, "_on_request", do)
+    monkeypatch.setattr(player.server, "_on_clients", pages.append)
+    player.status |= {"offers": [["balance", "/plate"]]}
+    line = StillLine(player.server.address.port)
+    request.addfinalizer(line.close)
+    # The server takes the page for its own by its address, which is that of the line.
+    page = open_page(line)
+    button, words = page.locator("[data-do=balance]"), page.locator("#controls > .answer")
+    button.wait_for()
+    line.stand_still()
+    button.click()
+    pressed_s = time.monotonic()
+    expect(words).to_contain_text("the connection was lost before the answer; it may be done all the same")
+    # Where the press itself took long the page has given it up sooner.
+    wait_for(
+        lambda: time.monotonic() > pressed_s + LATE_S, "its being late", meanwhile=lambda: page.wait_for_timeout(50)
+    )
+    line.go_on()
+    expect(page.locator("#connection")).to_have_attribute("data-state", "live")
+    # Of the connection that stood still the server has taken all by then.
+    wait_for(lambda: any(after < before for before, after in pairwise(pages)), "its end", state=lambda: pages)
+    assert done == []
+    # On a line that does not stand still it is.
+    button.click()
+    expect(words).to_contain_text("balancing")
+    assert done == ["balance"]
