@@ -155,6 +155,13 @@ class SkinTopics:
         if self._outlines is not None:
             self._outlines.close()
 
+    def without_tellers(self) -> Frame | None:
+        """What was taken last without what controllers have said; None where they have said nothing."""
+        frame = self._frame
+        if not (frame.hand or frame.ball or frame.object):
+            return None
+        return replace(frame, hand=_NOTHING.hand, ball=_NOTHING.ball, object=_NOTHING.object)
+
     def take(self) -> tuple[Frame, list[Sample]] | None:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came or went."""
         samples, touch, stamp_s = self._contact.take()

@@ -174,8 +174,11 @@ class ViewNode(PollingNode):
 
     def _leave(self) -> None:
         with self._lock:
-            for topics in self._skins.values():
+            for name, topics in self._skins.items():
                 topics.close()
+                # What a controller has said may not be so any more when the next page is opened.
+                if (frame := topics.without_tellers()) is not None:
+                    self._server.show_frame(name, frame, [])
             self._skins.clear()
 
     def _find(self) -> None:

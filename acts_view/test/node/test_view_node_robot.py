@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from sensor_msgs.msg import JointState
 from view_node_bench import Bench
+from waiting import wait_for
 
 from acts_msgs.msg import BalanceStatus, BallReference, BallState, HandStatus
 from acts_ros import qos
@@ -104,3 +105,29 @@ def test_what_one_node_has_said_goes_where_it_is_gone_or_hangs_and_others_go_on(
         bench.until(lambda: "state" not in seen()["ball"] and "state" not in seen()["hand"], client, play)
         assert seen()["ball"] == {"ball": [0.01, 0.0]}
         assert seen()["hand"] == {"joints": [["knee", 0.5]]}
+
+
+def test_a_page_that_is_opened_later_is_not_told_what_a_controller_said_to_the_last_one(bench: Bench) -> None:
+    balance = bench.skin.create_publisher(BalanceStatus, "ball/status", qos.STATE)
+    hand = bench.skin.create_publisher(HandStatus, "hand/status", qos.STATE)
+
+    def play() -> None:
+        bench.press(1.0)
+        balance.publish(BalanceStatus(state=BalanceStatus.STATE_BALANCING))
+        hand.publish(HandStatus(state=HandStatus.STATE_HOLDING))
+
+    def seen() -> dict[str, Any]:
+        return bench.headers.get("frame", {"ball": {}, "hand": {}})
+
+    with bench.connect() as client:
+        bench.until(lambda: bool(seen()["ball"] and seen()["hand"] and seen()["touch"]), client, play)
+    # All of it ends while no page is open.
+    wait_for(lambda: not bench.view._skins, "the last page's end")
+    bench.destroy([balance, hand])
+    bench.headers.clear()
+    with bench.connect() as client:
+        bench.until(lambda: "frame" in bench.headers, client, lambda: None)
+    assert (seen()["ball"], seen()["hand"]) == ({}, {})
+    # Of the skin itself it is told what was last, and since when it is silent.
+    assert seen()["touch"][2] == 1.0
+    assert seen()["silent_s"] >= 0.0
