@@ -82,6 +82,8 @@ _TOPICS = {
 
 # All of them come several times a second; as of the diagnostics on the page.
 _STALE_S = 3.0
+# An image is missed later than what is beside it, since bags may have few of them.
+_IMAGE_STALE_S = 10.0
 
 _NOTHING = Frame()
 # Of what comes beside images and contacts: which values of `Frame` are then as if nothing had come.
@@ -113,7 +115,7 @@ class SkinTopics:
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
         self._frame = Frame()
-        # When each of `_BESIDE` came last, by the monotonic clock [s].
+        # When an image, a contact and each of `_BESIDE` came last, by the monotonic clock [s].
         self._came_s: dict[str, float] = {}
         # Of each topic of `_TOPICS`, what was said last, and when by the monotonic clock [s].
         self._told: dict[str, tuple[float, dict[str, Any]]] = {}
@@ -174,10 +176,12 @@ class SkinTopics:
         self._is_teller_gone = False
         now_s = time.monotonic()
         self._told |= {topic: (now_s, _TOPICS[topic].read(message)) for topic, message in told.items()}
+        self._forget_frozen_image()
         image = _pixels(images["image_raw"], "mono16")
         confidence = _pixels(images["confidence"], "mono8")
         age_s = _pixels(images["age"], "32FC1")
-        came = {"confidence": confidence, "age": age_s, "contacts": contacts, "regions": regions}
+        came: dict[str, object] = {"image": image, "touch": samples or None, "confidence": confidence, "age": age_s}
+        came |= {"contacts": contacts, "regions": regions}
         self._came_s |= {what: now_s for what, one in came.items() if one is not None}
         old = self._without_stale(now_s, is_image_new=image is not None, is_touch_new=bool(samples))
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
@@ -203,11 +207,22 @@ class SkinTopics:
 
         A skin launched again may publish less than before. Of one that is silent all stays, as of one moment.
         """
-        for what in [what for what, came_s in self._came_s.items() if came_s < now_s - _STALE_S]:
+        stale = [what for what in _BESIDE if self._came_s.get(what, now_s) < now_s - _STALE_S]
+        for what in stale:
             if is_image_new or (is_touch_new and what not in _OF_IMAGE):
                 del self._came_s[what]
                 self._frame = replace(self._frame, **_BESIDE[what])
         return self._frame
+
+    def _forget_frozen_image(self) -> None:
+        """Leave out an image that does not come while contacts do, as of a bag without images that is played.
+
+        By what came before, since at a slow rate both come at long intervals, one shortly after the other.
+        """
+        image_s, touch_s = self._came_s.get("image"), self._came_s.get("touch")
+        if image_s is not None and touch_s is not None and touch_s > image_s + _IMAGE_STALE_S:
+            del self._came_s["image"]
+            self._frame = replace(self._frame, image=None, confidence=None, age_s=None)
 
     def _known(self, place: str) -> dict[str, Any]:
         """What is known of a hand, a ball or an object."""

@@ -10,6 +10,7 @@ import tracemalloc
 from array import array
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ from acts_msgs.msg import (
 )
 from acts_ros import qos
 from acts_ros.messages import ContactFields, RegionsFields, write_contact, write_regions
-from acts_view.nodes import view_node
+from acts_view.nodes import skin_topics, view_node
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
 
@@ -206,6 +207,47 @@ def test_what_no_longer_comes_beside_new_images_is_not_shown_with_them(bench: Be
         # As of one moment with the last image: without another one both of its arrays stay.
         bench.until(lambda: has("confidence", "age"), client, lambda: bench.press(1.0))
         bench.until(has, client, lambda: image.publish(picture))
+
+
+def test_an_image_that_no_longer_comes_is_not_shown_with_new_contacts(bench: Bench) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
+
+    def play() -> None:
+        image.publish(picture)
+        bench.press(1.0)
+
+    with bench.connect() as client:
+        bench.until(lambda: "image" in bench.arrays, client, play)
+        # As where a recording from the page, which has no images, is played after the skin has ended.
+        bench.destroy([image])
+        bench.until(lambda: "image" not in bench.arrays, client, lambda: bench.press(2.0))
+        assert is_pressed_with(bench, 2.0)
+        image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+        bench.until(lambda: "image" in bench.arrays, client, play)
+
+
+def test_an_image_that_comes_seldom_stays(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    # By the clock of the topics it is twenty seconds from one image, and one contact, to the next.
+    now_s = 100.0
+    monkeypatch.setattr(skin_topics, "time", SimpleNamespace(monotonic=lambda: now_s))
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
+
+    def play() -> None:
+        bench.press(1.0)
+        image.publish(picture)
+
+    with bench.connect() as client:
+        bench.until(lambda: "image" in bench.arrays, client, play)
+        for force_n in (2.0, 3.0):
+            now_s += 20.0
+            bench.press(force_n)
+            bench.until(lambda force_n=force_n: is_pressed_with(bench, force_n), client, lambda: None)  # type: ignore[misc]
+            assert "image" in bench.arrays
+            bench.arrays.clear()
+            image.publish(picture)
+            bench.until(lambda: "image" in bench.arrays, client, lambda: None)
 
 
 @pytest.mark.parametrize(
