@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import partial
 from importlib.metadata import version
 from itertools import count
 from pathlib import Path
@@ -33,6 +34,7 @@ from acts_core.errors import SettingsError
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web import connections
 from acts_view.web import server as view_server
+from acts_view.web.connections import LimitedConnection
 from acts_view.web.server import ViewServer
 
 DEADLINE_S = 30.0
@@ -247,6 +249,28 @@ def test_a_recording_is_sent_over_a_slow_line(bench: Bench, tmp_path: Path, monk
 
     over_a_slow_line(lambda: slow_line(bench, "/recordings/x.mcap"), read, SEND_LIMIT_S, bench.log)
     assert bench.log == []
+
+
+def test_a_recording_is_whole_where_the_line_holds_more_than_an_answer_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Impatient(LimitedConnection):
+        def __init__(self, *arguments: Any, **options: Any) -> None:
+            soon = dict.fromkeys(["ping_interval", "ping_timeout", "close_timeout"], 0.02)
+            super().__init__(*arguments, **{**options, **soon})
+
+    size = 1_500_000
+    file = tmp_path / "x.mcap"
+    file.write_bytes(bytes(size))
+    monkeypatch.setattr(view_server, "LimitedConnection", Impatient)
+    bench = Bench()
+    monkeypatch.setattr(bench.server, "_find_file", lambda _name: file)
+    try:
+        # It answers nothing.
+        make = partial(slow_line, bench, "/recordings/x.mcap")
+        over_a_slow_line(make, lambda line: line.read_slowly(size), SEND_LIMIT_S, bench.log)
+    finally:
+        bench.close()
 
 
 def test_an_address_that_is_taken_is_told(bench: Bench) -> None:

@@ -42,6 +42,8 @@ _PIECE_BYTES = 1 << 16
 # Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
 _SEND_BUFFER_BYTES = 65536
 _LARGEST_REQUEST_BYTES = 1024
+# What a slow line still holds of a file may take this long to arrive.
+_LAST_PIECES_S = 60.0
 # A browser on a slow network sends its request within this.
 _HANDSHAKE_S = 5.0
 _METHODS = ("GET", "HEAD")
@@ -283,6 +285,8 @@ class ViewServer:
         file = self._file(path)
         assert file is not None
         _bound_send_buffer(connection)
+        # Answers to both wait behind what a slow line holds, which may be megabytes, as of a tunnel.
+        connection.ping_timeout, connection.close_timeout = None, _LAST_PIECES_S
         self._downloads += 1
         try:
             with file.open("rb") as stream:
