@@ -105,6 +105,8 @@ for (const name of LISTS) {
 for (const name of [...SWITCHES, "theme"]) byId(name).onclick = () => next(name);
 byId("pause").onclick = () => hold(!panels.isHeld);
 document.addEventListener("keydown", (event) => {
+  // A button that is kept down by this key is pressed once: a robot would be told thirty times a second.
+  if (event.repeat && event.key === "Enter" && event.target.closest("button")) event.preventDefault();
   if (!settings.keys || event.ctrlKey || event.metaKey || event.altKey) return;
   // What is typed there is theirs; a slider has arrows, Home, End and the page keys, and none of these is ours.
   if (event.target.closest("select, input:not([type=range])")) return;

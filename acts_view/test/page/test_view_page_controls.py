@@ -256,3 +256,21 @@ def test_a_robot_is_not_started_when_the_line_goes_on(
     button.click()
     expect(words).to_contain_text("balancing")
     assert done == ["balance"]
+
+
+def test_a_button_that_is_kept_down_by_a_key_asks_once(
+    play: Callable[..., Player], open_page: Callable[..., Page], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = play()
+    asked: list[str] = []
+    monkeypatch.setattr(player.server, "_on_request", lambda request, _answer: asked.append(request.do))
+    player.status |= {"offers": [["grasp", "/hand"], ["stop_grasp", "/hand"]]}
+    page = open_page(player)
+    page.focus("[data-do=grasp]")
+    for _ in range(5):
+        # All but the first are repeated.
+        page.keyboard.down("Enter")
+    page.keyboard.up("Enter")
+    page.click("[data-do=stop_grasp]")
+    wait_for(lambda: "stop_grasp" in asked, "what was asked for last", state=lambda: asked)
+    assert asked == ["grasp", "stop_grasp"]
