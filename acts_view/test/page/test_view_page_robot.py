@@ -164,6 +164,32 @@ def test_a_known_object_is_named_while_somebody_classifies(
     expect(rows).to_have_text(["no. 2910", "no. 290"])
 
 
+def test_names_of_objects_are_forgotten_also_while_nothing_is_drawn(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    told: dict[str, Any] = SPOON
+    frames = count()
+
+    def change(frame: Frame) -> Frame:
+        next(frames)
+        return replace(frame, object=told)
+
+    page = open_page(play(change=change))
+    found, pause = page.locator(".object .found"), page.locator("#pause")
+    expect(found).to_have_text("wooden spoon (confidence 0.50)")
+    # Meanwhile who classified ends, and another one has other objects.
+    pause.click()
+    others: list[dict[str, Any]] = [{}, {**SPOON, "number": 7, "name": "cup", "nearest": [[7, 0.1], [2, 0.9]]}]
+    for other in others:
+        told = other
+        enough = next(frames) + 60
+        wait_for(lambda enough=enough: next(frames) >= enough, "some frames")  # type: ignore[misc]
+    expect(found).to_have_text("wooden spoon (confidence 0.50)")
+    pause.click()
+    expect(found).to_have_text("cup (confidence 0.50)")
+    expect(page.locator(".object tbody tr")).to_have_text(["cup10", "no. 290"])
+
+
 @pytest.mark.parametrize("width", [280, 360, 1280])
 def test_a_long_name_stays_in_its_card(play: Callable[..., Player], open_page: Callable[..., Page], width: int) -> None:
     told = {**SPOON, "name": "n" * 200}

@@ -15,13 +15,20 @@ export class Objects {
     this.names = new Map(); // of those that were found so far: a message has the name of the first only
   }
 
+  /** Of every message, also of those that are not shown: whoever classifies next may have other objects. */
+  take({ number }) {
+    if (number === undefined) this.names.clear();
+  }
+
+  /** Another server may follow. */
+  forget() {
+    this.names.clear();
+  }
+
   /** The newest; hidden as long as nobody classifies. */
   show({ number, name, confidence, nearest }) {
     this.element.hidden = number === undefined;
-    if (this.element.hidden) {
-      this.names.clear();
-      return;
-    }
+    if (this.element.hidden) return;
     if (number !== null && name) this.names.set(number, name);
     setText(this.element.querySelector(".found"), this.#found(number, confidence, nearest));
     for (const part of ["table", ".note"]) this.element.querySelector(part).hidden = number === null;

@@ -124,6 +124,7 @@ export class Panel {
     // What controls the skin is in messages too, and may go on without it.
     if (message.silent_s !== null) this.heard_ms = performance.now() - 1000 * message.silent_s;
     this.history.take(message);
+    this.objects.take(message.object);
     if (this.isHeld) {
       this.latest = message;
       return;
@@ -162,6 +163,7 @@ export class Panel {
   /** The connection was lost and is there again: the server sends all of its history. */
   forget() {
     this.history.clear();
+    this.objects.forget();
   }
 
   /** The server has it no longer. */
