@@ -89,6 +89,10 @@ class Bench:
         contact = self._skin.create_publisher(Contact, f"{name}/contact", qos.STREAM)
         self._skin.create_timer(0.005, lambda: (self.late.publish(TactileSamples()), contact.publish(Contact())))
 
+    def skip(self, count: int) -> None:
+        """Leave out frames."""
+        self._sequence += count
+
     def _publish(self) -> None:
         self._sequence += 1
         self._samples.publish(
@@ -260,6 +264,19 @@ def test_a_message_that_comes_after_the_end_is_left_out(tmp_path: Path) -> None:
     bag.write(topic, b"two")
     with open_bag(tmp_path / "bag") as found:
         assert [data for _, _, data in found.messages(["/a"])] == [b"one"]
+
+
+def test_frames_that_a_recording_lacks_by_their_numbers_are_lost(begin: Callable[..., Bench]) -> None:
+    bench = begin()
+    with bench.connect() as client:
+        page = Asker(client)
+        assert page.ask("record")[0]
+        page.recording(lambda state: state.get("messages", 0) > 20)
+        # As out of a queue that is full while a disk is slow.
+        bench.skip(5)
+        # Of samples and of contacts.
+        page.recording(lambda state: state.get("lost", 0) >= 10)
+        assert ", 0 lost, " not in page.ask("stop_recording")[1]
 
 
 @needs_browser
