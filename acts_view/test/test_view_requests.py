@@ -6,6 +6,10 @@
 from __future__ import annotations
 
 import json
+import os
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -102,3 +106,32 @@ def test_what_was_asked_for_long_ago_is_not_done_unless_it_stops_something() -> 
     assert [answer["done"] for answer in answers] == [False, True, True]
     assert "s after it was asked for" in answers[0]["text"]
     assert done == ["stop_grasp", "tare"]
+
+
+def test_a_stop_does_not_wait_for_a_file_that_a_disk_is_slow_to_open(tmp_path: Path) -> None:
+    file = tmp_path / "x.mcap"
+    # It is not opened before somebody writes to it.
+    os.mkfifo(file)
+    server = ViewServer(
+        "127.0.0.1",
+        0,
+        on_clients=lambda _: None,
+        log=print,
+        on_request=lambda _, answer: answer(True, "stopped"),
+        find_file=lambda _: file,
+    )
+    origin = server.address.url.rstrip("/")
+    begin = partial(connect, origin=Origin(origin), compression=None)
+    stream = origin.replace("http", "ws")
+    try:
+        with begin(f"{stream}/stream") as page, begin(f"{stream}/recordings/x.mcap") as download:
+            page.send('{"id":1,"do":"stop_grasp"}')
+            answer, _ = decode(page.recv(DEADLINE_S))  # type: ignore[arg-type]
+            assert answer["text"] == "stopped"
+            file.write_bytes(b"touch")
+            assert download.recv(DEADLINE_S) == b"touch"
+    finally:
+        # Whatever has failed: the server waits for the file, too.
+        with suppress(OSError):
+            os.close(os.open(file, os.O_WRONLY | os.O_NONBLOCK))
+        server.close()

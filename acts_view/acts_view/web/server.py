@@ -289,7 +289,7 @@ class ViewServer:
         connection.ping_timeout, connection.close_timeout = None, _LAST_PIECES_S
         self._downloads += 1
         try:
-            with file.open("rb") as stream:
+            with await asyncio.to_thread(file.open, "rb") as stream:
                 while piece := await asyncio.to_thread(stream.read, _PIECE_BYTES):
                     await asyncio.wait_for(connection.send(piece), self._send_limit_s)
         except ConnectionClosed:
