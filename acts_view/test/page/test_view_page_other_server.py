@@ -109,6 +109,24 @@ def test_what_a_node_has_said_can_be_opened_also_when_the_server_is_gone(
     expect(page.locator("#diagnostics dl")).to_have_text("portauto")
 
 
+def test_what_nodes_and_a_recording_were_about_is_dimmed_while_there_is_no_server(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    first = play()
+    present = {"name": "touch", "elapsed_s": 3.0, "bytes": 0, "messages": 9, "lost": 0}
+    first.status["recording"] = {"on": True, "note": "", "files": [], **present}
+    page = open_page(first)
+    told = [page.locator(part) for part in (".nodes", "#recording .answer")]
+    expect(told[1]).to_contain_text("9 messages")
+    for one in told:
+        expect(one).to_have_css("opacity", "1")
+    first.close()
+    for one in told:
+        expect(one).to_have_css("opacity", "0.6")
+    play(port=first.server.address.port)
+    expect(told[0]).to_have_css("opacity", "1")
+
+
 def test_a_server_with_another_page_gets_it_loaded_but_not_in_a_pause(
     follow: Callable[..., tuple[Page, Player]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
