@@ -178,6 +178,10 @@ class SkinTopics:
         self._told |= {topic: (now_s, _TOPICS[topic].read(message)) for topic, message in told.items()}
         self._forget_frozen_image()
         image = _pixels(images["image_raw"], "mono16")
+        # Of a bag without contacts those of the images.
+        stamps_s = [] if stamp_s is None else [stamp_s]
+        if image is not None and images["image_raw"] is not None:
+            stamps_s.append(images["image_raw"].stamp_ns * 1e-9)
         confidence = _pixels(images["confidence"], "mono8")
         age_s = _pixels(images["age"], "32FC1")
         came: dict[str, object] = {"image": image, "touch": samples or None, "confidence": confidence, "age": age_s}
@@ -186,7 +190,7 @@ class SkinTopics:
         old = self._without_stale(now_s, is_image_new=image is not None, is_touch_new=bool(samples))
         numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
         self._frame = Frame(
-            stamp_s=old.stamp_s if stamp_s is None else stamp_s,
+            stamp_s=max(stamps_s, default=old.stamp_s),
             # More than a converter can give has no colour and no force.
             image=old.image if image is None else np.minimum(image, COUNT_MAX),
             confidence=old.confidence if confidence is None else confidence,

@@ -136,6 +136,16 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     assert (bench.arrays["image"] == 300).all()
 
 
+def test_images_without_contacts_have_the_time_of_their_stamps(bench: Bench) -> None:
+    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
+    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
+    picture.header.stamp.sec = 1_790_000_000
+
+    with bench.connect() as client:
+        bench.until(lambda: "image" in bench.arrays, client, lambda: image.publish(picture))
+    assert bench.headers["frame"]["stamp_s"] == 1_790_000_000
+
+
 def test_more_than_a_board_can_count_is_shown_as_the_most(bench: Bench) -> None:
     image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
     data = array("B", np.full(64, 4000, "<u2").tobytes())
