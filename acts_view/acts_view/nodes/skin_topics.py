@@ -82,8 +82,8 @@ _TOPICS = {
 
 # All of them come several times a second; as of the diagnostics on the page.
 _STALE_S = 3.0
-# An image is missed later than what is beside it, since bags may have few of them.
-_IMAGE_STALE_S = 10.0
+# An image, or a contact beside images, is missed later: bags may have few of them.
+_FROZEN_S = 10.0
 
 _NOTHING = Frame()
 # Of what comes beside images and contacts: which values of `Frame` are then as if nothing had come.
@@ -114,7 +114,7 @@ class SkinTopics:
         self._namespace = namespace
         self._polled: dict[str, PolledSubscription[Any]] = {}
         self._silent: set[str] = set()
-        self._frame = Frame()
+        self._frame = Frame(is_touch_known=False)
         # When an image, a contact and each of `_BESIDE` came last, by the monotonic clock [s].
         self._came_s: dict[str, float] = {}
         # Of each topic of `_TOPICS`, what was said last, and when by the monotonic clock [s].
@@ -176,7 +176,7 @@ class SkinTopics:
         self._is_teller_gone = False
         now_s = time.monotonic()
         self._told |= {topic: (now_s, _TOPICS[topic].read(message)) for topic, message in told.items()}
-        self._forget_frozen_image()
+        self._forget_frozen()
         image = _pixels(images["image_raw"], "mono16")
         # Of a bag without contacts those of the images.
         stamps_s = [] if stamp_s is None else [stamp_s]
@@ -199,6 +199,7 @@ class SkinTopics:
             contacts=table,
             outlines=() if self._outlines is None else self._outlines.take(),
             touch=touch if samples else old.touch,
+            is_touch_known=bool(samples) or old.is_touch_known,
             regions=old.regions if regions is None else _regions(regions),
             hand=self._known("hand"),
             ball=self._known("ball"),
@@ -218,15 +219,20 @@ class SkinTopics:
                 self._frame = replace(self._frame, **_BESIDE[what])
         return self._frame
 
-    def _forget_frozen_image(self) -> None:
-        """Leave out an image that does not come while contacts do, as of a bag without images that is played.
+    def _forget_frozen(self) -> None:
+        """Leave out an image that does not come while contacts do, or a contact while images do, as in many bags.
 
         By what came before, since at a slow rate both come at long intervals, one shortly after the other.
         """
         image_s, touch_s = self._came_s.get("image"), self._came_s.get("touch")
-        if image_s is not None and touch_s is not None and touch_s > image_s + _IMAGE_STALE_S:
+        if image_s is None or touch_s is None:
+            return
+        if touch_s > image_s + _FROZEN_S:
             del self._came_s["image"]
             self._frame = replace(self._frame, image=None, confidence=None, age_s=None)
+        elif image_s > touch_s + _FROZEN_S:
+            del self._came_s["touch"]
+            self._frame = replace(self._frame, touch=None, is_touch_known=False)
 
     def _known(self, place: str) -> dict[str, Any]:
         """What is known of a hand, a ball or an object."""

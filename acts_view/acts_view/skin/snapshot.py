@@ -70,6 +70,8 @@ class Frame:
         Corners of closed polygons around what touches, x and y [m].
     touch : tuple of float or None
         Of all that presses: centre of pressure x and y [m], force [N], peak [counts], area [m^2]; None without contact.
+    is_touch_known : bool
+        False: nobody tells whether anything presses, as in a bag that has images only.
     regions : sequence of RegionState
     hand : mapping
         State of a hand in words, and the angles of its joints; empty for none.
@@ -87,6 +89,7 @@ class Frame:
     contacts: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, len(CONTACT_COLUMNS)), np.float32))
     outlines: Sequence[NDArray[np.float32]] = ()
     touch: tuple[float, ...] | None = None
+    is_touch_known: bool = True
     regions: Sequence[RegionState] = ()
     hand: dict[str, Any] = field(default_factory=dict)
     ball: dict[str, Any] = field(default_factory=dict)
@@ -260,6 +263,7 @@ def encode_frame(
         "base_s": base_s,
         "life": life,
         "touch": frame.touch,
+        "touch_known": frame.is_touch_known,
         "regions": [[region.name, region.force_n, region.slip_m, region.is_slipping] for region in frame.regions],
         "hand": frame.hand,
         "ball": frame.ball,

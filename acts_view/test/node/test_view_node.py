@@ -136,14 +136,25 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     assert (bench.arrays["image"] == 300).all()
 
 
-def test_images_without_contacts_have_the_time_of_their_stamps(bench: Bench) -> None:
+def test_images_without_contacts_have_the_time_of_their_stamps_and_tell_nothing_of_touch(bench: Bench) -> None:
     image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
     picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
     picture.header.stamp.sec = 1_790_000_000
 
+    def play() -> None:
+        image.publish(picture)
+
+    def touch() -> tuple[bool, bool]:
+        frame = bench.headers["frame"]
+        return frame["touch_known"], frame["touch"] is not None
+
     with bench.connect() as client:
-        bench.until(lambda: "image" in bench.arrays, client, lambda: image.publish(picture))
-    assert bench.headers["frame"]["stamp_s"] == 1_790_000_000
+        bench.until(lambda: "image" in bench.arrays, client, play)
+        assert bench.headers["frame"]["stamp_s"] == 1_790_000_000
+        assert touch() == (False, False)
+        bench.until(lambda: touch() == (True, True), client, lambda: bench.press(1.0))
+        # As where a bag of images is played after the skin has ended.
+        bench.until(lambda: touch() == (False, False), client, play)
 
 
 def test_more_than_a_board_can_count_is_shown_as_the_most(bench: Bench) -> None:

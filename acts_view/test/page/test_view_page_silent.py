@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -72,3 +73,12 @@ def test_a_skin_that_nothing_came_of_is_not_shown_as_untouched(
     expect(page.locator("[data-number=force]")).to_have_text("1.25")
     next_picture(page)
     assert opacity_of_taxels(page) == 255
+
+
+def test_a_skin_of_which_nobody_tells_contacts_is_not_shown_as_untouched(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(change=lambda frame: replace(frame, touch=None, is_touch_known=False)))
+    expect(page.locator("[data-number=rate]")).not_to_have_text("–")
+    assert opacity_of_taxels(page) == 255
+    assert [page.inner_text(f"[data-number={name}]") for name in ("force", "peak", "area", "lost")] == ["–"] * 4

@@ -252,13 +252,13 @@ export class Panel {
   }
 
   #showNumbers() {
-    const { touch } = this.message;
+    const { touch, touch_known } = this.message;
     const [x_m, y_m, force_n, peak, area_m2] = touch ?? [];
     const history = this.plots.held ?? this.history;
     const { rate_hz } = history;
     const [, lost] = history.sums(LOST, 60);
     const [, latencies] = history.extremes(LATENCY, 1, 1);
-    const nothing = (words) => (this.#isHeard ? words : "–");
+    const nothing = (words) => (this.#isHeard && touch_known ? words : "–");
     const values = {
       force: touch ? force_n.toFixed(2) : nothing("0.00"),
       x: touch ? rounded(1000 * x_m, 1) : "–",
