@@ -11,10 +11,11 @@ import { Recording } from "./recording.js";
 import { Replay } from "./replay.js";
 import { answered, forgetAll, heardClock, useConnection } from "./requests.js";
 import { next, onChange, set, settings } from "./settings.js";
-import { nameOf } from "./words.js";
+import { nameOf, setText } from "./words.js";
 
 const TICK_MS = 50;
-const STATES = { connecting: "connecting", live: "connected", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
+const BEHIND_S = 2; // nobody should take what is so old for the present
+const STATES = { connecting: "connecting", live: "connected", behind: "connected, but what is shown is seconds old: the line is slow", gone: "server gone, trying again", refused: "the server refuses this page: does the address have its token, or are 32 pages open?" };
 const LISTS = ["scale", "unit", "colours", "window"];
 const SWITCHES = ["smooth", "contacts", "outlines", "unsure", "measured", "keys"];
 const KEYS = { s: "scale", n: "unit", m: "colours", i: "smooth", c: "contacts", o: "outlines", u: "unsure", t: "measured", d: "theme" };
@@ -43,7 +44,7 @@ function onMessage(message) {
   else if (message.type === "frame") panels.of(message.skin).take(message);
   else if (message.type === "answer") answered(message);
   else if (message.type === "status") {
-    heardClock(message.clock_s);
+    showState(heardClock(message.clock_s) > BEHIND_S ? "behind" : "live");
     version ??= message.version;
     // The server was started again with another page, as after an update; what is paused is looked at first.
     if (message.version !== version && !panels.isHeld) location.reload();
@@ -67,10 +68,13 @@ function showWhyEmpty(names) {
   named.querySelector("strong").textContent = names.map(nameOf).join(", ");
 }
 
+function showState(state) {
+  byId("connection").dataset.state = state;
+  setText(byId("connection"), STATES[state]);
+}
+
 function onState(state) {
-  const pill = byId("connection");
-  pill.dataset.state = state;
-  pill.textContent = STATES[state];
+  showState(state);
   document.body.dataset.connection = state;
   if (state === "live") panels.begin();
   else panels.end();

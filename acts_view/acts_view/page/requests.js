@@ -4,10 +4,12 @@
 // What the page asks the server for, and what is answered.
 
 const PATIENCE_MS = 15000;
+const DRIFT_S = 0.001; // from one status to the next, a second later
 
 let send = () => false;
 let number = 0;
-let ahead_s = null; // of the server's clock before this page's
+// The server's clock before this page's, as a message told it that came soonest.
+let ahead_s = null;
 const waiting = new Map();
 
 /** Ask through this from now on. */
@@ -15,9 +17,12 @@ export function useConnection(sender) {
   send = sender;
 }
 
-/** The server has told its clock. */
+/** The server has told its clock; how much longer that took than at best [s], as where a slow line holds much. */
 export function heardClock(clock_s) {
-  ahead_s = clock_s - performance.now() / 1000;
+  const told_s = clock_s - performance.now() / 1000;
+  // No two clocks are equally fast.
+  ahead_s = ahead_s === null ? told_s : Math.max(told_s, ahead_s - DRIFT_S);
+  return ahead_s - told_s;
 }
 
 /** Ask for something; resolves to {done, text}, whatever happens. */

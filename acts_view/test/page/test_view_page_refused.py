@@ -1,18 +1,20 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A page that the server refuses, in a real browser: it says so, and goes on where it is let in."""
+"""A page that the server refuses, or that a slow line keeps behind, in a real browser: it says so, and goes on."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import pytest
 from view_browser import expect, needs_browser
 from view_player import Player
 
-from acts_view.web import server
+from acts_view.web import display, server
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -51,3 +53,20 @@ def test_a_page_too_many_waits_for_its_turn(
         expect(page.locator("#connection")).to_have_attribute("data-state", "refused")
     expect(page.locator("#connection")).to_have_text("connected")
     expect(page.locator(".skin .pill")).to_have_text("live")
+
+
+def test_a_page_says_that_it_is_behind_where_a_slow_line_holds_much(
+    page: Page, play: Callable[..., Player], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    late_s = 0.0
+    # As of a tunnel, which takes megabytes at once and passes them on later.
+    monkeypatch.setattr(display, "time", SimpleNamespace(monotonic=lambda: time.monotonic() - late_s))
+    player = play()
+    page.goto(player.url)
+    told = page.locator("#connection")
+    expect(told).to_have_text("connected")
+    late_s = 10.0
+    expect(told).to_have_text("connected, but what is shown is seconds old: the line is slow")
+    late_s = 0.0
+    expect(told).to_have_text("connected")
+    expect(told).to_have_attribute("data-state", "live")
