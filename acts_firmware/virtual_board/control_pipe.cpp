@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "option_error.hpp"
+#include "same_file.hpp"
 
 namespace acts {
 
@@ -57,8 +58,10 @@ ControlPipe::ControlPipe(const std::string& path) : path_(path) {
 }
 
 ControlPipe::~ControlPipe() {
-  std::error_code ignored;
-  fs::remove(path_, ignored);
+  if (leads_to(path_, pipe_)) {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
   close(pipe_);
 }
 

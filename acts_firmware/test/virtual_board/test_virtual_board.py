@@ -271,6 +271,21 @@ def test_a_link_in_use_is_refused_with_the_name_of_the_board_that_has_it(tmp_pat
         first.read_frames(3)
 
 
+def test_what_another_board_has_made_after_the_folder_was_cleared_stays(tmp_path: Path) -> None:
+    # As systemd clears /dev/shm where a user logs out (RemoveIPC), and a board goes on.
+    control = tmp_path / "run/control"
+    with BoardProcess(tmp_path, "--control", control) as first:
+        for path in first.link.parent.iterdir():
+            path.unlink()
+        with BoardProcess(tmp_path, "--control", control) as second:
+            assert first.terminate() == 0
+            assert control.is_fifo()
+            assert f"in use by process {second.process.pid} (" in refusal(second.link, 2)
+            assert str(second.link.readlink()) == second.start["port"]
+            assert second.terminate() == 0
+        assert list(first.link.parent.iterdir()) == []
+
+
 @pytest.mark.parametrize("content", [b"mine\n", b"12 of mine\n", b"1" * 25])
 def test_a_file_that_is_no_lock_is_refused_and_stays_as_it_is(tmp_path: Path, content: bytes) -> None:
     other = tmp_path / "poetry.lock"

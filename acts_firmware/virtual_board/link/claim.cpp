@@ -22,6 +22,7 @@
 #include <thread>
 
 #include "option_error.hpp"
+#include "same_file.hpp"
 
 namespace acts {
 
@@ -123,8 +124,10 @@ Claim::Claim(const std::string& path) : lock_path_(path + ".lock") {
 }
 
 Claim::~Claim() {
-  // While it is still locked: afterwards it may be another's.
-  unlink(lock_path_.c_str());
+  // While it is still locked: afterwards it may be another's. It is already where somebody has cleared the folder.
+  if (leads_to(lock_path_, file_)) {
+    unlink(lock_path_.c_str());
+  }
   close(file_);
 }
 
@@ -148,10 +151,7 @@ bool Claim::lock() {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       continue;
     }
-    struct stat ours{};
-    struct stat present{};
-    if (fstat(file_, &ours) == 0 && lstat(lock_path_.c_str(), &present) == 0 && ours.st_ino == present.st_ino &&
-        ours.st_dev == present.st_dev) {
+    if (leads_to(lock_path_, file_)) {
       return true;
     }
     close(file_);  // the one before us has just given it up, and the file with it
