@@ -35,6 +35,12 @@ REPLY_TIMEOUT_S = 0.1
 TRIES = 3
 """How often a command is sent before the board counts as silent. Repeating one is harmless."""
 
+COMPUTING_MAX_S = 20.0
+"""A board that makes an image or tells an object hears nothing meanwhile; so long is waited for it at most [s]."""
+
+FIRST_RESULT_S = 2.0
+"""So long is waited for that until a result has told how long it takes [s]."""
+
 CATCH_UP_S = 1.0
 """How long it is waited for the thread that reads, before it is said that a board does not answer."""
 
@@ -86,6 +92,7 @@ class BoardLink:
         self._write = write
         self._catch_up = catch_up
         self._has_answered = False
+        self._computing_s = 0.0
         self._timeout_s = reply_timeout_s
         self._tries = tries
         self._turn = threading.Lock()
@@ -95,13 +102,22 @@ class BoardLink:
         self._reply: Reply | None = None
 
     def receive(self, message: BoardMessage) -> None:
-        """Handle a message of the board, on the reader's thread. All but the reply to the last command is ignored."""
-        if isinstance(message, Reply):
-            with self._arrived:
-                if message.request == self._request:
-                    self._reply = message
-                    self._has_answered = True
-                    self._arrived.notify_all()
+        """Handle a message of the board, on the reader's thread: the reply to the last command, or a result.
+
+        A result tells how long the board computes, and hears nothing, after each frame.
+        """
+        if not isinstance(message, Reply):
+            self._computing_s = min(message.duration_us * 1e-6, COMPUTING_MAX_S)
+            return
+        if message.state.samples_only or message.state.settings.output == "samples":
+            self._computing_s = 0.0
+        elif not self._computing_s:
+            self._computing_s = FIRST_RESULT_S
+        with self._arrived:
+            if message.request == self._request:
+                self._reply = message
+                self._has_answered = True
+                self._arrived.notify_all()
 
     def query(self) -> Reply:
         """Ask for the board's state.
@@ -197,8 +213,9 @@ class BoardLink:
             # Not before this machine has seen that there is none: a busy one reads late.
             has_heard_all = self._catch_up(CATCH_UP_S)
             with self._arrived:
-                # The answer may be behind the frames that waited on the board until this machine read.
-                if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s):
+                # The answer may be behind the frames that waited on the board until this machine read, or the board
+                # still be busy with the last frame.
+                if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s + self._computing_s):
                     assert self._reply is not None
                     return self._reply
         if not has_heard_all:

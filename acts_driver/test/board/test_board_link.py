@@ -143,6 +143,19 @@ def test_a_board_that_has_answered_before_is_no_older_firmware(tmp_path: Path) -
         host.close()
 
 
+def test_a_board_that_makes_images_for_long_is_waited_for(tmp_path: Path) -> None:
+    with VirtualBoard(tmp_path / "board", "--recovery-us", "1000000") as board:
+        host = Host(board.link)
+        host.link.upload(dictionary(20))
+        host.link.configure(BoardSettings(output="image"))
+        # Less than the board takes for an image, however often it is asked.
+        host.link._timeout_s = 0.2
+        for _ in range(3):
+            assert host.link.query().state.settings.output == "image"
+        assert host.link.configure(BoardSettings()).state.settings.output == "samples"
+        host.close()
+
+
 def test_a_board_that_takes_no_bytes_blocks_neither_writing_nor_closing(tmp_path: Path) -> None:
     with PtyBoard(tmp_path) as board:
         host = Host(board.path)
