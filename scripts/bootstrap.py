@@ -41,6 +41,7 @@ PYTHON_RECORD = VENV / "acts.python"
 
 PLAIN = re.compile(r"[\w/.+@~-]")
 MINIMUM_PYTHON = (3, 10)
+NEWER_THAN_UR_RTDE = (3, 13)
 # Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
 VENV_RECIPE = "1"
 NETWORK_HINT = (
@@ -184,6 +185,8 @@ def create_venv() -> None:
     # Gone while the work is under way: an interrupted one must not pass for whole when its inputs change back.
     stamp.unlink(missing_ok=True)
     say(f"virtual environment with Python {sys.version.split()[0]} in {os.path.relpath(VENV, ROOT)}")
+    if sys.version_info >= NEWER_THAN_UR_RTDE:
+        say("ur_rtde has no wheel for this Python: all but the UR5e will work, and that with Python 3.12 or older")
     # What was built, too: CMake remembers the interpreter and the place of the checkout.
     for folder in (VENV, BUILD, INSTALL):
         shutil.rmtree(folder, ignore_errors=True)

@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 import socket
+import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 from acts_control.ball import Trajectory, TrajectoryConfig
 from acts_core.array import ArrayGeometry
-from acts_core.errors import LaunchError
+from acts_core.errors import LaunchError, SettingsError
 from acts_core.runtime import is_loopback
 from acts_msgs.msg import BalanceStatus
 from acts_tools.demo.ball.collector import Collector
@@ -141,9 +143,20 @@ def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int 
         SCHED_FIFO priority of all processes; 0 for ordinary scheduling.
     """
     check_robot_ip(robot_ip)
+    require_ur_rtde()
     files = DemoFiles.made(out, "ball_balancing")
     with claimed_folder(out), claimed_robot(robot_ip):
         return _run(seconds, files, robot_ip, realtime_priority)
+
+
+def require_ur_rtde() -> None:
+    """Raise SettingsError where the library is missing by which the arm is moved: without it nothing would."""
+    if find_spec("rtde_control") is None:
+        raise SettingsError(
+            "the UR5e needs the library ur_rtde, which is not installed: pip install ur-rtde. Python "
+            f"{sys.version_info[0]}.{sys.version_info[1]} may be too new for its wheels. On a bare machine: "
+            "make clean; make setup PYTHON=/path/to/python3.12"
+        )
 
 
 def _run(seconds: float | None, files: DemoFiles, robot_ip: str, realtime_priority: int) -> int:
