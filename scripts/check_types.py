@@ -8,12 +8,9 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from importlib.metadata import version
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# What numpy says of its own types changes; for Python 3.10 there is no newer one than 2.2.
-OLDEST_NUMPY = (2, 4)
 
 
 def mypy(*arguments: str, path: str = "") -> int:
@@ -22,9 +19,6 @@ def mypy(*arguments: str, path: str = "") -> int:
 
 
 def main() -> int:
-    if tuple(map(int, version("numpy").split(".")[:2])) < OLDEST_NUMPY:
-        print(f"types are not checked: that needs numpy {'.'.join(map(str, OLDEST_NUMPY))}, here is {version('numpy')}")
-        return 0
     packages = sorted(f"{path.parent.name}/{path.parent.name}" for path in ROOT.glob("*/setup.py"))
     tests = sorted(str(path.relative_to(ROOT)) for path in (*ROOT.glob("*/test"), ROOT / "test"))
     codes = [mypy(*packages, *tests, "conftest.py", "scripts", "examples")]

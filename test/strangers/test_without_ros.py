@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib import metadata, util
 from pathlib import Path
 
@@ -44,17 +45,26 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("test", "__pycache__", "*.egg-info"))
     site = folder / "site"
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-deps", "--no-build-isolation"]
+    command += ["--use-pep517"]  # an older pip without `wheel` would leave out the commands
     sources = [str(folder / name) for name in PACKAGES]
     done = subprocess.run([*command, "--no-compile", "--target", str(site), *sources], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    needed = set(requirements(site))
-    for module, distributions in metadata.packages_distributions().items():
-        spec = util.find_spec(module) if needed & set(map(normal, distributions)) else None
-        if spec is not None and spec.origin is not None:
-            path = Path(spec.origin)
-            path = path.parent if spec.submodule_search_locations else path
-            (site / path.name).symlink_to(path)
+    for name in requirements(site):
+        with suppress(metadata.PackageNotFoundError):
+            for path in installed(metadata.distribution(name)):
+                (site / path.name).symlink_to(path)
     return site
+
+
+def installed(distribution: metadata.Distribution) -> Iterator[Path]:
+    """Folders and files of a distribution, as they are beside one another."""
+    names = {path.parts[0] for path in distribution.files or ()} - {"..", "__pycache__"}
+    if not names:  # of a Debian package
+        modules = (distribution.read_text("top_level.txt") or "").split()
+        names = {name for module in modules for name in (module, f"{module}.py")}
+    for path in (Path(str(distribution.locate_file(name))) for name in names):
+        if path.exists():
+            yield path
 
 
 def requirements(site: Path) -> Iterator[str]:

@@ -234,7 +234,8 @@ def test_files_that_are_no_recordings(tmp_path: Path) -> None:
     refused(tmp_path / "slow.npz", r"e-324 frames per second; allowed are 0\.001 to 1e\+06")
     np.savez(tmp_path / "later.npz", frames=np.zeros((1, 8, 8), np.uint16), rate_hz=1.0)
     # The version of the zip format, in the list of contents, is one that nobody has yet.
-    later = (tmp_path / "later.npz").read_bytes().replace(b"PK\1\2\x2d\3\x2d", b"PK\1\2\x2d\3\xff")
+    later = bytearray((tmp_path / "later.npz").read_bytes())
+    later[later.index(b"PK\1\2") + 6] = 0xFF
     (tmp_path / "later.npz").write_bytes(later)
     refused(tmp_path / "later.npz", "later.npz: a damaged npz file")
     (tmp_path / "text.mcap").write_text("no bag")
