@@ -40,7 +40,7 @@ def add_parser(subparsers: Any) -> None:
     """Add ``acts export`` to the acts command."""
     parser = subparsers.add_parser(
         "export",
-        help="write touch of a bag as csv, npz, parquet or a LeRobot dataset",
+        help="write touch of a bag as csv, npz, parquet or LeRobot dataset",
         description="Write images, contacts and joint states of bags as tables with one row per time. Images and "
         "contacts that were not recorded are recovered from the samples. docs/export.md lists the columns.",
         epilog=_EPILOG,

@@ -143,9 +143,9 @@ def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int 
         SCHED_FIFO priority of all processes; 0 for ordinary scheduling.
     """
     check_robot_ip(robot_ip)
-    require_ur_rtde()
     files = DemoFiles.made(out, "ball_balancing")
     with claimed_folder(out), claimed_robot(robot_ip):
+        require_ur_rtde()
         return _run(seconds, files, robot_ip, realtime_priority)
 
 
