@@ -4,6 +4,7 @@
 """A host that comes directly after another gets nothing of what the virtual board had for that one."""
 
 import os
+import signal
 import termios
 import time
 from pathlib import Path
@@ -75,12 +76,30 @@ def test_one_that_opens_the_port_of_the_published_sketch_at_once(tmp_path: Path)
         assert board.decoder.malformed == 0
 
 
-def test_a_program_that_opens_and_closes_the_port_of_another_changes_nothing(tmp_path: Path) -> None:
-    with BoardProcess(tmp_path) as board:
+def pass_frames(board: BoardProcess, count: int) -> None:
+    """Until the board has measured so many more."""
+    first = line_with(board, connected=True)["frames"]
+    while board.status()["frames"] < first + count:
+        pass
+
+
+@pytest.mark.parametrize("comes_at_once", [False, True], ids=["the_first_host", "one_directly_after_another"])
+def test_a_program_that_opens_and_closes_the_port_of_another_changes_nothing(
+    tmp_path: Path, comes_at_once: bool
+) -> None:
+    with BoardProcess(tmp_path, "--status-period-s", 0.01) as board:
         board.open_port()
+        if comes_at_once:
+            board.read_frames(20)
+            board.process.send_signal(signal.SIGSTOP)
+            termios.tcflush(board.open_port(), termios.TCIFLUSH)
+            board.process.send_signal(signal.SIGCONT)
         frames = board.read_frames(20)
         for _ in range(20):
+            # Some wait to be read.
+            pass_frames(board, 10)
             os.close(os.open(board.link, os.O_RDWR | os.O_NOCTTY))
+            pass_frames(board, 2)
             frames += board.read_frames(5)
         assert board.decoder.malformed == board.decoder.crc_errors == board.decoder.partial == 0
         lost = frames[-1].sequence - frames[0].sequence + 1 - len(frames)

@@ -124,7 +124,7 @@ void PseudoTerminal::discard_unread() const {
 
 void PseudoTerminal::watch() {
   if (watch_ >= 0) {
-    close(watch_);
+    close(watch_);  // takes the system many milliseconds: only for another terminal
   }
   openers_ = 0;
   watch_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -135,18 +135,22 @@ void PseudoTerminal::watch() {
 
 bool PseudoTerminal::was_left() {
   bool left = false;
+  came_ = 0;
   alignas(inotify_event) std::array<char, 4096> events{};
-  const ssize_t length = ::read(watch_, events.data(), events.size());
-  for (ssize_t at = 0; at < length;) {
-    const auto* event = reinterpret_cast<const inotify_event*>(events.data() + at);
-    if ((event->mask & IN_OPEN) != 0) {
-      ++openers_;
-    } else if ((event->mask & IN_CLOSE) != 0) {
-      // None is counted where it was opened before the watch began.
-      openers_ = std::max(openers_ - 1, 0);
-      left = left || openers_ == 0;
+  for (ssize_t length = 0; (length = ::read(watch_, events.data(), events.size())) > 0;) {
+    for (ssize_t at = 0; at < length;) {
+      const auto* event = reinterpret_cast<const inotify_event*>(events.data() + at);
+      if ((event->mask & IN_OPEN) != 0) {
+        ++openers_;
+        ++came_;
+      } else if ((event->mask & IN_CLOSE) != 0) {
+        // None is counted where it was opened before the watch began.
+        openers_ = std::max(openers_ - 1, 0);
+        came_ = 0;
+        left = left || openers_ == 0;
+      }
+      at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
     }
-    at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
   }
   return left;
 }
@@ -161,13 +165,18 @@ PseudoTerminal::Event PseudoTerminal::service() {
   }
   has_input_ = (states[0].revents & POLLIN) != 0;
   const bool now_open = (states[0].revents & POLLHUP) == 0;
+  came_ = 0;
   const bool left = (states[1].revents & POLLIN) != 0 && was_left();
   const bool was_open = open_;
   open_ = now_open;
   if (was_open && (left || !now_open)) {
+    // Nobody was there a moment ago. The system may tell of several that leave as of one.
+    openers_ = now_open ? openers_ : came_;
     discard_unread();  // the next host must not begin with the last one's leftovers
-    watch();           // which has seen that as well
-    return now_open ? Event::kOpened : Event::kClosed;
+    was_left();        // the watch has seen that as well
+    // The first words of one that has come in the meantime are read together with the last ones of the one before.
+    open_ = now_open || openers_ > 0;
+    return open_ ? Event::kOpened : Event::kClosed;
   }
   return now_open && !was_open ? Event::kOpened : Event::kNone;
 }

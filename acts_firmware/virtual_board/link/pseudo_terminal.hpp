@@ -57,6 +57,7 @@ class PseudoTerminal {
   int master_ = -1;
   int watch_ = -1;   // of inotify; -1 where the system has none left
   int openers_ = 0;  // of the host's end, since the watch began
+  int came_ = 0;     // those of them that came after the last one that left, when was_left() last looked
   bool open_ = false;
   bool has_input_ = false;
   std::string link_;
