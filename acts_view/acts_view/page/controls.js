@@ -124,7 +124,10 @@ export class Controls {
     const group = [...this.groups.children].find((one) => one.dataset.of === of);
     for (const [name, value] of Object.entries(values)) {
       const field = group?.querySelector(`[data-name=${name}]`);
-      if (field && !("typed" in field.dataset)) field.value = value;
+      if (!field || "typed" in field.dataset || field.value === String(value)) continue;
+      field.value = value;
+      // Who is about to type replaces it: the browser would put the first key after it.
+      if (field === document.activeElement) field.select?.();
     }
   }
 

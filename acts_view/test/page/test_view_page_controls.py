@@ -63,6 +63,22 @@ def test_a_number_that_is_none_is_refused_beside_its_field(
     expect(answer).to_contain_text(READ_ONLY)
 
 
+def test_a_number_that_comes_while_one_is_about_to_be_typed_does_not_join_it(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    player = play()
+    player.status |= {"offers": [["set", "/plate"]], "settings": {"/plate": {"m": 55, "threshold_counts": 40}}}
+    page = open_page(player)
+    field, other = page.locator("#controls [data-name=m]"), page.locator("#controls [data-name=threshold_counts]")
+    expect(field).to_have_value("55")
+    field.select_text()
+    player.status["settings"] = {"/plate": {"m": 77, "threshold_counts": 41}}
+    expect(other).to_have_value("41")
+    expect(field).to_have_value("77")
+    page.keyboard.type("60")
+    expect(field).to_have_value("60")
+
+
 def test_what_one_is_about_to_press_or_types_stays_where_nodes_come_and_go(
     play: Callable[..., Player], open_page: Callable[..., Page]
 ) -> None:
