@@ -5,13 +5,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.kernels import kernel
+from acts_recon.contacts.grid import Grid, Thresholds
 from acts_recon.images import SMALLEST_DIVISOR, force_of, taxel_variances
 
 MAX_BLOBS = 16
@@ -44,25 +45,47 @@ BLOB = np.dtype(
 """What `find_blobs` writes of each contact."""
 
 
+class Work(NamedTuple):
+    """The buffers of `find_blobs`; n is the number of taxels.
+
+    Attributes
+    ----------
+    state : np.ndarray [shape=(n,), dtype=uint8]
+        Which taxels are pressed; kept from frame to frame.
+    members : np.ndarray [shape=(n,), dtype=int32]
+        Written: the taxels of the contacts, one contact after the other.
+    label, border : np.ndarray [shape=(n,), dtype=int32]
+        Group of each taxel, and the taxels around one group.
+    blobs : np.ndarray [shape=(MAX_BLOBS + 1,), dtype=BLOB]
+        Written: the contacts; the last one is work space.
+    """
+
+    state: NDArray[np.uint8]
+    members: NDArray[np.int32]
+    label: NDArray[np.int32]
+    border: NDArray[np.int32]
+    blobs: NDArray[Any]
+
+    @classmethod
+    def empty(cls, n: int) -> Work:
+        """At the start, with nothing pressed."""
+        return cls(
+            state=np.zeros(n, dtype=np.uint8),
+            members=np.zeros(n, dtype=np.int32),
+            label=np.zeros(n, dtype=np.int32),
+            border=np.zeros(n, dtype=np.int32),
+            blobs=np.zeros(MAX_BLOBS + 1, dtype=BLOB),
+        )
+
+
 @kernel
 def find_blobs(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
-    bounds: NDArray[np.int32],
-    cols: int,
-    touch_counts: float,
+    grid: Grid,
+    thresholds: Thresholds,
     release_counts: float,
-    noise_counts: float,
-    together: float,
-    force_n: NDArray[np.float64],
-    slope_n: NDArray[np.float64],
-    pitch_m: float,
-    pitch_y_m: float,
-    state: NDArray[np.uint8],
-    label: NDArray[np.int32],
-    members: NDArray[np.int32],
-    border: NDArray[np.int32],
-    blobs: NDArray[Any],
+    work: Work,
 ) -> tuple[int, int]:
     """Find the groups of neighbouring pressed taxels, and describe each.
 
@@ -72,32 +95,20 @@ def find_blobs(
         Counts.
     sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
         Standard deviations of the taxels [counts]; empty where not known, the variances are then 0.
-    bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
-        See `acts_recon.images.borders.Borders`.
-    cols : int
-    touch_counts, release_counts : float
-        Above the first a taxel becomes pressed, at or below the second it ceases to be.
-    noise_counts, together : float
-        Deviations beyond the first are of guesses; so many guesses err together.
-    force_n : np.ndarray [shape=(1025,), dtype=float64]
-        The table of `acts_core.skin.force.force_table`.
-    slope_n : np.ndarray [shape=(1024,), dtype=float64]
-        Its slope, see `acts_recon.images.uncertainty.slope_table` [N/count].
-    pitch_m, pitch_y_m : float
-    state : np.ndarray [shape=(rows * cols,), dtype=uint8]
-        Which taxels are pressed; kept from frame to frame, zero at first.
-    label, members, border : np.ndarray [shape=(rows * cols,), dtype=int32]
-        Written: work space; `members` holds the taxels of the contacts.
-    blobs : np.ndarray [shape=(MAX_BLOBS + 1,), dtype=BLOB]
-        Written; the last one is work space.
+    grid : Grid
+    thresholds : Thresholds
+    release_counts : float
+        At or below it a taxel ceases to be pressed.
+    work : Work
 
     Returns
     -------
     tuple of int
         Contacts written, and weaker ones left out.
     """
+    state, members, label, border, blobs = work.state, work.members, work.label, work.border, work.blobs
+    bounds, cols, touch_counts = grid.bounds, grid.cols, thresholds.touch_counts
     size = image.shape[0]
-    rows = size // cols
     for t in range(size):
         state[t] = 1 if image[t] > (release_counts if state[t] else touch_counts) else 0
         label[t] = 0
@@ -147,12 +158,9 @@ def find_blobs(
             if image[members[i]] > touch_counts:
                 least = touch_counts
                 break
-        _describe(image, rows, cols, least, force_n, pitch_m, pitch_y_m, members, blob)
+        _describe(image, least, grid, members, blob)
         if sigma.shape[0] > 0:
-            _propagate(
-                image, sigma, rows, cols, least, noise_counts, together, force_n, slope_n, pitch_m, pitch_y_m,
-                members, border[:n_border], blob,
-            )  # fmt: skip
+            _propagate(image, sigma, least, grid, thresholds, members, border[:n_border], blob)
         else:
             blob.x_var = blob.y_var = blob.force_var = blob.taxels_var = blob.spread_square_var = 0.0
         if place == MAX_BLOBS:
@@ -166,18 +174,10 @@ def find_blobs(
 
 
 @kernel
-def _describe(
-    image: NDArray[np.float32],
-    rows: int,
-    cols: int,
-    least: float,
-    force_n: NDArray[np.float64],
-    pitch_m: float,
-    pitch_y_m: float,
-    members: NDArray[np.int32],
-    blob: Any,
-) -> None:
+def _describe(image: NDArray[np.float32], least: float, grid: Grid, members: NDArray[np.int32], blob: Any) -> None:
     """Write force, place, size and second moments of a contact, of its taxels above `least` [counts]."""
+    cols, pitch_m, pitch_y_m, force_n = grid.cols, grid.pitch_m, grid.pitch_y_m, grid.force_n
+    rows = image.shape[0] // cols
     total = by_col = by_row = peak = 0.0
     taxels = 0
     for i in range(blob.first, blob.last):
@@ -219,20 +219,17 @@ def _describe(
 def _propagate(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
-    rows: int,
-    cols: int,
     least: float,
-    noise_counts: float,
-    together: float,
-    force_n: NDArray[np.float64],
-    slope_n: NDArray[np.float64],
-    pitch_m: float,
-    pitch_y_m: float,
+    grid: Grid,
+    thresholds: Thresholds,
     members: NDArray[np.int32],
     border: NDArray[np.int32],
     blob: Any,
 ) -> None:
     """Variances; see `acts_recon.images.uncertainty` for the formulae."""
+    cols, pitch_m, pitch_y_m = grid.cols, grid.pitch_m, grid.pitch_y_m
+    noise_counts, together = thresholds.noise_counts, thresholds.together
+    rows = image.shape[0] // cols
     x_var = y_var = force_var = taxels_var = spread_square_var = 0.0
     spread_square = blob.xx_m2 + blob.yy_m2
     n = blob.last - blob.first
@@ -244,7 +241,7 @@ def _propagate(
         # What is not a number is not pressed.
         value = float(image[t]) if image[t] > 0.0 else 0.0
         square, wrong = taxel_variances(
-            value, float(sigma[t]), pressed, least, noise_counts, together, force_n, slope_n
+            value, float(sigma[t]), pressed, least, noise_counts, together, grid.force_n, grid.slope_n
         )
         row = t // cols
         x = ((t - row * cols) - (cols - 1) / 2) * pitch_m - blob.x_m

@@ -19,15 +19,16 @@ A track is a contact with a number. It is active (seen in the last frame), away 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
+from acts_recon.contacts.blob_kernels import MAX_BLOBS
 from acts_recon.contacts.blob_merge_kernels import count_merged, covering, leave, merge, own_part, part
 from acts_recon.contacts.blob_motion_kernels import predict, update
-from acts_recon.contacts.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE
+from acts_recon.contacts.blob_tracks import ACTIVE, AWAY, FREE, MAX_TRACKS, MERGED, NONE, TRACK
 
 NUMBERS = 2**32
 
@@ -66,6 +67,47 @@ LEAST_SHARE = 0.25
 _ROUNDING = 1e-9
 
 
+class Memory(NamedTuple):
+    """State and buffers of `follow`.
+
+    Attributes
+    ----------
+    tracks : np.ndarray [shape=(MAX_TRACKS,), dtype=TRACK]
+        State.
+    owner : np.ndarray [shape=(rows * cols,), dtype=int8]
+        State: the track that a taxel belongs to, or -1.
+    next_number : np.ndarray [shape=(1,), dtype=int64]
+        State: the number of the next new contact.
+    overlap : np.ndarray [shape=(MAX_BLOBS, MAX_TRACKS), dtype=int32]
+    cost : np.ndarray [shape=(MAX_BLOBS, MAX_TRACKS), dtype=float64]
+    track_of : np.ndarray [shape=(MAX_BLOBS,), dtype=int64]
+        Work space: of every contact the taxels that it shares with each track, its cost with each, and its track.
+    found : np.ndarray [shape=(MAX_BLOBS,), dtype=FOUND]
+        Written: the contacts, the oldest first.
+    """
+
+    tracks: NDArray[Any]
+    owner: NDArray[np.int8]
+    next_number: NDArray[np.int64]
+    overlap: NDArray[np.int32]
+    cost: NDArray[np.float64]
+    track_of: NDArray[np.int64]
+    found: NDArray[Any]
+
+    @classmethod
+    def empty(cls, n_taxels: int) -> Memory:
+        """At the start, without tracks."""
+        return cls(
+            tracks=np.zeros(MAX_TRACKS, dtype=TRACK),
+            owner=np.full(n_taxels, NONE, dtype=np.int8),
+            next_number=np.ones(1, dtype=np.int64),
+            overlap=np.zeros((MAX_BLOBS, MAX_TRACKS), dtype=np.int32),
+            cost=np.zeros((MAX_BLOBS, MAX_TRACKS)),
+            track_of=np.zeros(MAX_BLOBS, dtype=np.int64),
+            found=np.zeros(MAX_BLOBS, dtype=FOUND),
+        )
+
+
 @kernel
 def follow(
     time_s: float,
@@ -78,13 +120,7 @@ def follow(
     sigma_known: bool,
     bridge_s: float,
     memory_s: float,
-    tracks: NDArray[Any],
-    owner: NDArray[np.int8],
-    overlap: NDArray[np.int32],
-    cost: NDArray[np.float64],
-    track_of: NDArray[np.int64],
-    next_number: NDArray[np.int64],
-    found: NDArray[Any],
+    memory: Memory,
 ) -> int:
     """Associate the contacts of a frame with tracks, and update these.
 
@@ -95,30 +131,20 @@ def follow(
     n : int
         Contacts in `blobs`.
     blobs, members
-        See `acts_recon.contacts.blob_kernels.find_blobs`.
+        See `acts_recon.contacts.blob_kernels.Work`.
     pitch_m, pitch_y_m : float
     sigma_known : bool
         Whether the variances in `blobs` are known.
     bridge_s, memory_s : float
         How long a track may be away, and merged.
-    tracks : np.ndarray [shape=(MAX_TRACKS,), dtype=TRACK]
-        State; zero at first.
-    owner : np.ndarray [shape=(rows * cols,), dtype=int8]
-        State: the track that a taxel belongs to, or -1; -1 at first.
-    overlap, cost : np.ndarray [shape=(MAX_BLOBS, MAX_TRACKS)]
-        Work space, int32 and float64.
-    track_of : np.ndarray [shape=(MAX_BLOBS,), dtype=int64]
-        Work space.
-    next_number : np.ndarray [shape=(1,), dtype=int64]
-        State: the number of the next new contact; 1 at first.
-    found : np.ndarray [shape=(MAX_BLOBS,), dtype=FOUND]
-        Written: the contacts, the oldest first.
+    memory : Memory
 
     Returns
     -------
     int
         Contacts written: `n`.
     """
+    tracks, owner, overlap, track_of = memory.tracks, memory.owner, memory.overlap, memory.track_of
     pitch = math.sqrt(pitch_m * pitch_y_m)
     predict(time_s, dt_s, bridge_s, memory_s, tracks)
     for b in range(n):
@@ -128,8 +154,8 @@ def follow(
         for i in range(blobs[b].first, blobs[b].last):
             if owner[members[i]] >= 0:
                 overlap[b, owner[members[i]]] += 1
-    _weigh(time_s, bridge_s, n, blobs, pitch, tracks, overlap, cost)
-    _assign(n, tracks, cost, track_of)
+    _weigh(time_s, bridge_s, n, blobs, pitch, tracks, overlap, memory.cost)
+    _assign(n, tracks, memory.cost, track_of)
     _prefer_the_stronger(n, blobs, tracks, overlap, track_of)
     part(tracks)
     for t in range(MAX_TRACKS):
@@ -141,7 +167,7 @@ def follow(
                 merge(time_s, t, host, blobs, tracks)
     for b in range(n):
         if track_of[b] == NONE:
-            track_of[b] = _begin(time_s, b, blobs, tracks, next_number)
+            track_of[b] = _begin(time_s, b, blobs, tracks, memory.next_number)
     for b in range(n):
         update(time_s, dt_s, blobs[b], pitch_m, pitch_y_m, sigma_known, track_of[b], tracks)
     # The taxels of a track that is away stay its own until another contact covers them.
@@ -151,7 +177,7 @@ def follow(
     for b in range(n):
         for i in range(blobs[b].first, blobs[b].last):
             owner[members[i]] = track_of[b]
-    _report(time_s, n, blobs, pitch_m * pitch_y_m, sigma_known, tracks, track_of, found)
+    _report(time_s, n, blobs, pitch_m * pitch_y_m, sigma_known, tracks, track_of, memory.found)
     return n
 
 

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
-from acts_core.skin import ForceResponse, Response, TrackedBlob, force_table
+from acts_core.skin import ForceResponse, Response, TrackedBlob
 from acts_recon.contacts import blob_kernels, blob_track_kernels
 from acts_recon.contacts.blob_config import BlobConfig
-from acts_recon.contacts.blob_kernels import MAX_BLOBS
-from acts_recon.contacts.blob_tracks import FREE, MAX_TRACKS, TRACK
-from acts_recon.images import Borders, borders_of, slope_table
+from acts_recon.contacts.blob_tracks import FREE, NONE
+from acts_recon.contacts.grid import Grid, Thresholds
+from acts_recon.images import Borders
 
 _LONGEST_PAUSE_S = 1.0
 _UNKNOWN = np.empty(0, dtype=np.float32)
@@ -46,19 +46,11 @@ class BlobTracker:
         self.config = config or BlobConfig()
         self.dropped = 0
         """Contacts of the last frame that were left out because there were more than `MAX_BLOBS`: the weakest."""
-        self._force_n = force_table(response or ForceResponse())
-        self._slope_n = slope_table(self._force_n)
-        self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
-        size = geometry.size
-        self._state = np.zeros(size, dtype=np.uint8)
-        self._work = tuple(np.zeros(size, dtype=np.int32) for _ in range(3))
-        self._blobs = np.zeros(MAX_BLOBS + 1, dtype=blob_kernels.BLOB)
-        self._tracks = np.zeros(MAX_TRACKS, dtype=TRACK)
-        self._owner = np.full(size, -1, dtype=np.int8)
-        self._pairs = np.zeros((MAX_BLOBS, MAX_TRACKS), dtype=np.int32), np.zeros((MAX_BLOBS, MAX_TRACKS))
-        self._track_of = np.zeros(MAX_BLOBS, dtype=np.int64)
-        self._next_number = np.ones(1, dtype=np.int64)
-        self._found = np.zeros(MAX_BLOBS, dtype=blob_track_kernels.FOUND)
+        config = self.config
+        self._grid = Grid.of(geometry, response or ForceResponse(), borders)
+        self._thresholds = Thresholds(float(config.touch_counts), config.noise_counts, config.err_together)
+        self._work = blob_kernels.Work.empty(geometry.size)
+        self._memory = blob_track_kernels.Memory.empty(geometry.size)
         self._time_s: float | None = None
         self._warm_up()
 
@@ -93,52 +85,30 @@ class BlobTracker:
             self.reset()
             dt_s = 0.0
         self._time_s = time_s
-        geometry, config = self.geometry, self.config
-        label, members, border = self._work
+        config, work = self.config, self._work
         n, self.dropped = blob_kernels.find_blobs(
-            flat,
-            deviations,
-            self._bounds,
-            geometry.cols,
-            float(config.touch_counts),
-            float(config.release_counts),
-            config.noise_counts,
-            config.err_together,
-            self._force_n,
-            self._slope_n,
-            geometry.pitch_m,
-            geometry.pitch_y_m,
-            self._state,
-            label,
-            members,
-            border,
-            self._blobs,
+            flat, deviations, self._grid, self._thresholds, float(config.release_counts), work
         )
         blob_track_kernels.follow(
             time_s,
             dt_s,
             n,
-            self._blobs,
-            members,
-            geometry.pitch_m,
-            geometry.pitch_y_m,
+            work.blobs,
+            work.members,
+            self._grid.pitch_m,
+            self._grid.pitch_y_m,
             sigma is not None,
             config.bridge_s,
             config.memory_s,
-            self._tracks,
-            self._owner,
-            *self._pairs,
-            self._track_of,
-            self._next_number,
-            self._found,
+            self._memory,
         )
-        return tuple(map(TrackedBlob._make, self._found[:n].tolist()))
+        return tuple(map(TrackedBlob._make, self._memory.found[:n].tolist()))
 
     def reset(self) -> None:
         """Forget all contacts; numbers go on."""
-        self._state[:] = 0
-        self._tracks["state"] = FREE
-        self._owner[:] = -1
+        self._work.state[:] = 0
+        self._memory.tracks["state"] = FREE
+        self._memory.owner[:] = NONE
 
     def _flat(self, image: NDArray[np.float32], name: str) -> NDArray[np.float32]:
         shape = (self.geometry.rows, self.geometry.cols)

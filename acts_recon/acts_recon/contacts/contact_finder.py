@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.skin import Response, force_table
+from acts_core.skin import Response
 from acts_recon.contacts import contact_kernels
 from acts_recon.contacts.contact import NO_CONTACT, Contact
-from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, borders_of, slope_table
+from acts_recon.contacts.grid import Grid, Thresholds
+from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders
 
 _UNKNOWN = np.empty(0, dtype=np.float32)
 
@@ -42,12 +43,8 @@ class ContactFinder:
         noise_counts: float = NOISE_COUNTS,
         borders: Borders | None = None,
     ) -> None:
-        self._bounds = (borders or borders_of(geometry.rows, geometry.cols)).bounds()
-        self._cols = geometry.cols
-        self._pitches_m = geometry.pitch_m, geometry.pitch_y_m
-        self._thresholds = touch_counts, noise_counts, ERR_TOGETHER
-        force_n = force_table(response)
-        self._tables = force_n, slope_table(force_n)
+        self._grid = Grid.of(geometry, response, borders)
+        self._thresholds = Thresholds(float(touch_counts), noise_counts, ERR_TOGETHER)
         self._results = np.zeros(contact_kernels.RESULTS)
         self.find(np.zeros(geometry.size, dtype=np.float32))  # compiles, or loads from the cache
 
@@ -64,11 +61,8 @@ class ContactFinder:
         contact_kernels.find_contact(
             image,
             _UNKNOWN if sigma is None else sigma,
-            self._bounds,
-            self._cols,
-            *self._thresholds,
-            *self._tables,
-            *self._pitches_m,
+            self._grid,
+            self._thresholds,
             self._results,
         )
         x_m, y_m, force_n, peak_counts, area_m2, active_taxels, *others = self._results.tolist()

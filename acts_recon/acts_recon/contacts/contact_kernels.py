@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
+from acts_recon.contacts.grid import Grid, Thresholds
 from acts_recon.images import FAR, SMALLEST_DIVISOR, force_of, taxel_variances
 
 RESULTS = 12
@@ -28,15 +29,8 @@ X, Y, FORCE, PEAK, AREA, TAXELS, SPREAD, X_SD, Y_SD, FORCE_SD, AREA_SD, SPREAD_S
 def find_contact(
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
-    bounds: NDArray[np.int32],
-    cols: int,
-    touch_counts: float,
-    noise_counts: float,
-    together: float,
-    force_n: NDArray[np.float64],
-    slope_n: NDArray[np.float64],
-    pitch_m: float,
-    pitch_y_m: float,
+    grid: Grid,
+    thresholds: Thresholds,
     results: NDArray[np.float64],
 ) -> None:
     """Describe the contact.
@@ -47,20 +41,14 @@ def find_contact(
         Counts, 0 to 1023.
     sigma : np.ndarray [shape=(rows * cols,) or (0,), dtype=float32]
         Standard deviations of the taxels [counts]; empty where not known, those of the contact are then 0.
-    bounds : np.ndarray [shape=(rows * cols, 4), dtype=int32]
-        See `acts_recon.images.borders.Borders`.
-    cols : int
-    touch_counts : float
-        A taxel above it is pressed.
-    noise_counts, together : float
-        Deviations beyond the first are of guesses; so many guesses err together.
-    force_n, slope_n : np.ndarray [shape=(1025,) and (1024,), dtype=float64]
-        The table of `acts_core.skin.force.force_table`, between two counts interpolated, and its slope, see
-        `acts_recon.images.uncertainty.slope_table`.
-    pitch_m, pitch_y_m : float
+    grid : Grid
+    thresholds : Thresholds
     results : np.ndarray [shape=(RESULTS,), dtype=float64]
         Written: the fields of `acts_recon.contacts.contact.Contact` after the first, in order. All 0 without contact.
     """
+    cols, pitch_m, pitch_y_m, bounds = grid.cols, grid.pitch_m, grid.pitch_y_m, grid.bounds
+    force_n, touch_counts = grid.force_n, thresholds.touch_counts
+    noise_counts, together = thresholds.noise_counts, thresholds.together
     total = by_col = by_row = by_col_square = by_row_square = peak = 0.0
     pressed = 0
     rows = image.shape[0] // cols
@@ -112,7 +100,7 @@ def find_contact(
             if not (inside or _beside(image, bounds[t], cols, row, col, touch_counts)):
                 continue
             square, wrong = taxel_variances(
-                max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, slope_n
+                max(value, 0.0), deviation, inside, touch_counts, noise_counts, together, force_n, grid.slope_n
             )
             x_away = ((col - mean_col) * pitch_m) ** 2
             y_away = ((row - mean_row) * pitch_y_m) ** 2

@@ -34,7 +34,7 @@ def compare(tracker: BlobTracker, frames: list[Frame]) -> int:
     """Follow the same contacts with both; how often some were part of others."""
     tracker.reset()
     reference = BlobTrackerReference(GEOMETRY, BY_TABLE, CONFIG)
-    first = tracker._next_number[0] - 1
+    first = tracker._memory.next_number[0] - 1
     time_s, merged = 0.0, 0
     for frame, (image, sigma, dt_s) in enumerate(frames):
         time_s += dt_s

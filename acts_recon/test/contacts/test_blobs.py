@@ -19,6 +19,7 @@ from recon_samples import bump, layouts
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Layout, MeasuredForceResponse, force_table
 from acts_recon.contacts import BlobConfig, blob_kernels
+from acts_recon.contacts.grid import Grid, Thresholds
 from acts_recon.images import Borders, borders_of, slope_table
 
 pytestmark = pytest.mark.slow
@@ -41,29 +42,18 @@ def by_kernel(
     borders: Borders | None = None,
 ) -> tuple[list[tuple[NDArray[np.int32], Any]], int]:
     """Taxels and numbers of every contact, and how many were left out."""
-    size = image.size
-    state = np.zeros(size, dtype=np.uint8) if before is None else before.ravel().astype(np.uint8)
-    label, members, border = (np.zeros(size, dtype=np.int32) for _ in range(3))
-    blobs = np.zeros(blob_kernels.MAX_BLOBS + 1, dtype=blob_kernels.BLOB)
+    work = blob_kernels.Work.empty(image.size)
+    if before is not None:
+        work.state[:] = before.ravel()
     n, dropped = blob_kernels.find_blobs(
         image.ravel().astype(np.float32),
         np.empty(0, np.float32) if sigma is None else sigma.ravel().astype(np.float32),
-        (borders or borders_of(geometry.rows, geometry.cols)).bounds(),
-        geometry.cols,
-        float(config.touch_counts),
+        Grid.of(geometry, RESPONSE, borders),
+        Thresholds(float(config.touch_counts), config.noise_counts, config.err_together),
         float(config.release_counts),
-        config.noise_counts,
-        config.err_together,
-        TABLE,
-        slope_table(TABLE),
-        geometry.pitch_m,
-        geometry.pitch_y_m,
-        state,
-        label,
-        members,
-        border,
-        blobs,
+        work,
     )
+    blobs, members = work.blobs, work.members
     return [(np.sort(members[blob["first"] : blob["last"]]), blob) for blob in blobs[:n]], dropped
 
 

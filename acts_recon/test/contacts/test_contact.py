@@ -17,7 +17,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table
 from acts_recon.contacts import Contact, contact_kernels
 from acts_recon.contacts.contact import NO_CONTACT
-from acts_recon.images import borders_of, slope_table
+from acts_recon.contacts.grid import Grid, Thresholds
 
 pytestmark = pytest.mark.slow
 
@@ -39,15 +39,8 @@ def by_kernel(
     contact_kernels.find_contact(
         image.ravel(),
         np.empty(0, np.float32) if sigma is None else sigma.ravel(),
-        borders_of(geometry.rows, geometry.cols).bounds(),
-        geometry.cols,
-        touch_counts,
-        noise_counts,
-        3.0,
-        TABLE,
-        slope_table(TABLE),
-        geometry.pitch_m,
-        geometry.pitch_y_m,
+        Grid.of(geometry, RESPONSE),
+        Thresholds(touch_counts, noise_counts, 3.0),
         results,
     )
     return results.tolist()
