@@ -87,13 +87,11 @@ class Classifier:
         self.library = library
         self.config = config or ClassifierConfig()
         taxels = library.rows * library.cols
-        self._model = (
-            in_blocks(library.columns),
-            np.ascontiguousarray(library.columns.T),
-            library.classes,
+        self._model = kernels.Model(
+            in_blocks(library.columns), np.ascontiguousarray(library.columns.T), library.classes
         )
         columns = self.config.columns_for(taxels, library)
-        self._workspace = Problems(1, taxels, columns).arrays()
+        self._problems = Problems.empty(1, taxels, columns)
         self._residuals = np.ones(library.n_classes, dtype=np.float32)
         # Compile, or load from the cache, what the first frame would otherwise wait seconds for.
         first = np.zeros(1, dtype=np.uint16)
@@ -134,12 +132,12 @@ class Classifier:
                 f"index {indices.max()}: an array of {self.library.rows} x {self.library.cols} has 0 to {taxels - 1}"
             )
         touched = kernels.class_residuals(
-            *self._model,
+            self._model,
             indices,
             counts,
             self.config.touch_counts,
             self.config.columns_for(indices.size, self.library),
-            *self._workspace,
+            self._problems,
             self._residuals,
         )
         if not touched:

@@ -8,6 +8,8 @@ Also what all classifiers share: sorting by class, and the decision.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,34 +24,43 @@ from acts_recon.sparse import (
     PRESSED,
     RESIDUAL_ROWS,
     Y_ROWS,
+    Problems,
     pursue,
     solve,
 )
 
 
+class Model(NamedTuple):
+    """A library as `class_residuals` reads it.
+
+    Attributes
+    ----------
+    blocks, columns : np.ndarray
+        As `acts_recon.sparse.fastomp_kernels.pursue` takes a dictionary.
+    classes : np.ndarray [shape=(n_columns,), dtype=int64]
+    """
+
+    blocks: NDArray[np.float32]
+    columns: NDArray[np.float32]
+    classes: NDArray[np.int64]
+
+
 @kernel(fastmath=FASTMATH)
 def class_residuals(
-    blocks: NDArray[np.float32],
-    columns: NDArray[np.float32],
-    classes: NDArray[np.int64],
+    model: Model,
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     touch_counts: int,
     n_columns: int,
-    taxels: NDArray[np.uint32],
-    table: NDArray[np.int32],
-    rows: NDArray[np.float32],
-    systems: NDArray[np.float32],
-    sums: NDArray[np.float32],
-    largest: NDArray[np.float32],
+    problems: Problems,
     residuals: NDArray[np.float32],
 ) -> bool:
     """Write the residual of every class for one frame into `residuals`; return whether anything was pressed.
 
-    The library is given as the dictionary is to `fastomp_kernels.pursue`. Then come the classes of its
-    columns, the frame, whose indices must be in range, the settings, and the buffers of
-    `acts_recon.sparse.fastomp_model.Problems` for a single problem.
+    The frame's indices must be in range. `problems` has room for a single one, with `n_columns` columns.
     """
+    columns, classes = model.columns, model.classes
+    taxels, table, rows, systems = problems.pixels, problems.table, problems.rows, problems.systems
     m = indices.shape[0]
     y, residual = rows[Y_ROWS, 0], rows[RESIDUAL_ROWS, 0]
     square = np.float32(0.0)
@@ -74,7 +85,7 @@ def class_residuals(
     table[PRESSED, 0] = pressed
     table[ALLOWED, 0] = n_columns
     table[ORDER, 0] = 0
-    pursue(blocks, columns, 1, taxels, table, rows, systems, sums, largest)
+    pursue(model.blocks, columns, 1, problems)
     s = table[N_CHOSEN, 0]
     solve(0, s, systems)
     coefficients = systems[0, :, systems.shape[1]]

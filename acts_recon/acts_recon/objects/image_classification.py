@@ -39,7 +39,6 @@ from acts_recon.objects import image_classification_kernels as kernels
 from acts_recon.objects import image_src_kernels
 from acts_recon.objects.classification import Classification
 from acts_recon.objects.classification_kernels import decide
-from acts_recon.objects.image_src_kernels import KNOWN_COUNTS, PROPOSED_CLASSES, PROPOSED_COLUMNS
 from acts_recon.objects.object_library import ObjectLibrary
 from acts_recon.objects.rate_of_change import RateOfChange
 
@@ -147,13 +146,19 @@ class ImageClassifier:
         self.library = library
         self.config = config or ImageClassifierConfig()
         taxels, n_classes = library.rows * library.cols, library.n_classes
-        model = kernels.Model(*shallower_patterns(library, response), len(LEVELS), n_classes)
-        self._state = kernels.State(taxels, len(model.classes), n_classes)
-        self._model, self._buffers = model.arrays(), self._state.arrays()
+        self._model = kernels.Model.of(*shallower_patterns(library, response), len(LEVELS), n_classes)
+        self._state = kernels.State.empty(taxels, len(self._model.classes), n_classes)
+        self._settings = kernels.Settings(
+            touch_counts=float(self.config.touch_counts),
+            noise_counts=self.config.noise_counts,
+            relative_error=self.config.relative_error,
+            force_weight=self.config.relative_error / self.config.force_error,
+            refined=REFINED_CLASSES,
+            mixing=MIXED_COLUMNS,
+        )
         self._rate_of_change = RateOfChange(library.rows, library.cols, self.config.touch_counts)
-        workspace = image_src_kernels.Workspace(taxels, n_classes, PROPOSED_CLASSES * PROPOSED_COLUMNS)
-        self._src_model, self._src_buffers = image_src_kernels.Model(library).arrays(), workspace.arrays()
-        self._src_residuals = workspace.residuals
+        self._src_model = image_src_kernels.Model.of(library)
+        self._src_work = image_src_kernels.Workspace.empty(taxels, n_classes)
         self._explained = self._state.explained[:: len(LEVELS)]
         self._skipped_s = 0.0
         # Compile, or load from the cache, what the first image would otherwise wait seconds for.
@@ -216,35 +221,21 @@ class ImageClassifier:
         inflated_sigma = self._inflated_sigma(image, sigma, age_s, period_s)
         # The residuals of earlier images fade over the images that were not classified, too.
         skipped_s, self._skipped_s = self._skipped_s, 0.0
-        touched = kernels.class_residuals(
-            *self._model,
-            image.ravel(),
-            inflated_sigma,
-            config.touch_counts,
-            config.noise_counts,
-            config.relative_error,
-            config.relative_error / config.force_error,
-            math.exp(-skipped_s / config.memory_s) if config.memory_s > 0 else 0.0,
-            REFINED_CLASSES,
-            MIXED_COLUMNS,
-            *self._buffers,
-        )
+        kept = math.exp(-skipped_s / config.memory_s) if config.memory_s > 0 else 0.0
+        touched = kernels.class_residuals(self._model, image.ravel(), inflated_sigma, self._settings, kept, self._state)
         if not touched:
             return Classification(False, 0, residuals, 0.0)
         weight = src_weight(self._rate_of_change.rate_counts_per_s, config)
         if weight >= _LEAST_WEIGHT and image_src_kernels.class_residuals(
-            *self._src_model,
+            self._src_model,
             image.ravel(),
             inflated_sigma,
             residuals,
             self._explained,
-            config.touch_counts,
-            KNOWN_COUNTS,
-            PROPOSED_CLASSES,
-            PROPOSED_COLUMNS,
-            *self._src_buffers,
+            self._settings.touch_counts,
+            self._src_work,
         ):
-            kernels.weigh(residuals, self._src_residuals, weight)
+            kernels.weigh(residuals, self._src_work.residuals, weight)
         best, confidence = decide(residuals)
         return Classification(True, best, residuals, confidence)
 

@@ -14,6 +14,8 @@ They allocate nothing; the tests compare them with `src_residuals` in `classific
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,51 +34,140 @@ KNOWN_COUNTS = 200.0
 """Standard deviation up to which a taxel is a sample for SRC, which knows no uncertainty."""
 
 
+class Model(NamedTuple):
+    """A library as `class_residuals` reads it.
+
+    Attributes
+    ----------
+    columns : np.ndarray [shape=(n_columns, n_taxels), dtype=float32]
+    products : np.ndarray [shape=(n_columns, n_columns), dtype=float64]
+        Inner products of the columns.
+    classes : np.ndarray [shape=(n_columns,), dtype=int64]
+    class_first, class_columns : np.ndarray [dtype=int64]
+        The columns class by class, see `by_class`.
+    """
+
+    columns: NDArray[np.float32]
+    products: NDArray[np.float64]
+    classes: NDArray[np.int64]
+    class_first: NDArray[np.int64]
+    class_columns: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, library: ObjectLibrary) -> Model:
+        """Of a library."""
+        columns = np.ascontiguousarray(library.columns.T)
+        exact = columns.astype(np.float64)
+        return cls(columns, exact @ exact.T, library.classes, *by_class(library.classes, library.n_classes))
+
+
+class Workspace(NamedTuple):
+    """The buffers of `class_residuals`; n is the number of columns proposed at most.
+
+    Attributes
+    ----------
+    proposed : np.ndarray [shape=(n,), dtype=int64]
+        Columns that take part.
+    pressed : np.ndarray [shape=(n_taxels,), dtype=int64]
+        Samples that are pressed.
+    gram, factor : np.ndarray [shape=(n, n), dtype=float64]
+        A'A of the proposed columns over the samples, and its Cholesky factor.
+    pull, share, there : np.ndarray [shape=(n,), dtype=float64]
+        A'y, the coefficients x, and the columns at one taxel.
+    residuals : np.ndarray [shape=(n_classes,), dtype=float32]
+        Result.
+    """
+
+    proposed: NDArray[np.int64]
+    pressed: NDArray[np.int64]
+    gram: NDArray[np.float64]
+    factor: NDArray[np.float64]
+    pull: NDArray[np.float64]
+    share: NDArray[np.float64]
+    there: NDArray[np.float64]
+    residuals: NDArray[np.float32]
+
+    @classmethod
+    def empty(cls, n_taxels: int, n_classes: int) -> Workspace:
+        """For images of so many taxels."""
+        n = PROPOSED_CLASSES * PROPOSED_COLUMNS
+        return cls(
+            proposed=np.zeros(n, dtype=np.int64),
+            pressed=np.zeros(n_taxels, dtype=np.int64),
+            gram=np.zeros((n, n)),
+            factor=np.zeros((n, n)),
+            pull=np.zeros(n),
+            share=np.zeros(n),
+            there=np.zeros(n),
+            residuals=np.ones(n_classes, dtype=np.float32),
+        )
+
+
 @kernel(fastmath=FASTMATH, inline="always")
 def _propose(
-    residuals: NDArray[np.float32],
-    explained: NDArray[np.float32],
-    class_first: NDArray[np.int64],
-    class_columns: NDArray[np.int64],
-    most_classes: int,
-    most_columns: int,
-    proposed: NDArray[np.int64],
+    residuals: NDArray[np.float32], explained: NDArray[np.float32], model: Model, proposed: NDArray[np.int64]
 ) -> int:
     """Write the best columns of the best classes into `proposed`, in no order; returns how many there are."""
+    class_first, class_columns = model.class_first, model.class_columns
     n = 0
     for number in range(residuals.shape[0]):
         better = 0
         for other in range(residuals.shape[0]):
             if residuals[other] < residuals[number] or (residuals[other] == residuals[number] and other < number):
                 better += 1
-        if better >= most_classes:
+        if better >= PROPOSED_CLASSES:
             continue
         begin, end = class_first[number], class_first[number + 1]
         for q in range(begin, end):
             column = class_columns[q]
             ahead = 0
-            if end - begin > most_columns:
+            if end - begin > PROPOSED_COLUMNS:
                 for r in range(begin, end):
                     rival = class_columns[r]
                     if explained[rival] > explained[column] or (
                         explained[rival] == explained[column] and rival < column
                     ):
                         ahead += 1
-            if ahead < most_columns:
+            if ahead < PROPOSED_COLUMNS:
                 proposed[n] = column
                 n += 1
     return n
 
 
 @kernel(fastmath=FASTMATH, inline="always")
-def _solve(
+def _normal_equations(
     n: int,
-    gram: NDArray[np.float64],
-    pull: NDArray[np.float64],
-    factor: NDArray[np.float64],
-    share: NDArray[np.float64],
+    n_pressed: int,
+    image: NDArray[np.float32],
+    sigma: NDArray[np.float32],
+    model: Model,
+    work: Workspace,
 ) -> None:
+    """Write A'A and A'y of the `n` proposed columns, on the taxels whose sigma is small."""
+    columns, products, proposed, pressed = model.columns, model.products, work.proposed, work.pressed
+    gram, pull, there = work.gram, work.pull, work.there
+    for i in range(n):
+        column = columns[proposed[i]]
+        pull[i] = 0.0
+        for e in range(n_pressed):
+            pull[i] += column[pressed[e]] * image[pressed[e]]
+        for j in range(i + 1):
+            gram[i, j] = products[proposed[i], proposed[j]]
+    for t in range(image.shape[0]):
+        if sigma[t] <= KNOWN_COUNTS:
+            continue
+        for i in range(n):
+            there[i] = columns[proposed[i], t]
+        for i in range(n):
+            if there[i] != 0:
+                for j in range(i + 1):
+                    gram[i, j] -= there[i] * there[j]
+
+
+@kernel(fastmath=FASTMATH, inline="always")
+def _solve(n: int, work: Workspace) -> None:
     """Solve ``(gram + REGULARISATION I) share = pull`` by Cholesky's method; only the lower half of `gram` is read."""
+    gram, factor, pull, share = work.gram, work.factor, work.pull, work.share
     for i in range(n):
         for j in range(i + 1):
             total = gram[i, j] + (REGULARISATION if i == j else 0.0)
@@ -98,37 +189,35 @@ def _solve(
 
 @kernel(fastmath=FASTMATH)
 def class_residuals(
-    columns: NDArray[np.float32],
-    products: NDArray[np.float64],
-    classes: NDArray[np.int64],
-    class_first: NDArray[np.int64],
-    class_columns: NDArray[np.int64],
+    model: Model,
     image: NDArray[np.float32],
     sigma: NDArray[np.float32],
     compared: NDArray[np.float32],
     explained: NDArray[np.float32],
     touch_counts: float,
-    known_counts: float,
-    most_classes: int,
-    most_columns: int,
-    proposed: NDArray[np.int64],
-    pressed: NDArray[np.int64],
-    gram: NDArray[np.float64],
-    factor: NDArray[np.float64],
-    pull: NDArray[np.float64],
-    share: NDArray[np.float64],
-    there: NDArray[np.float64],
-    residuals: NDArray[np.float32],
+    work: Workspace,
 ) -> bool:
-    """Write the residual of every class into `residuals`; return whether a taxel with a small sigma is pressed.
+    """Write the residual of every class into `work.residuals`; return whether a taxel with a small sigma is pressed.
 
-    First come the arrays of `Model`, then the image, the results of a comparison (residual of every class, energy
-    that every column alone explains), the settings, and the arrays of `Workspace`.
+    Parameters
+    ----------
+    model : Model
+    image, sigma : np.ndarray [shape=(n_taxels,), dtype=float32]
+        Counts, and the standard deviation of each.
+    compared : np.ndarray [shape=(n_classes,), dtype=float32]
+        Residual of every class by a comparison.
+    explained : np.ndarray [shape=(n_columns,), dtype=float32]
+        Energy of the image that every column alone explains.
+    touch_counts : float
+        Counts above which a taxel is pressed.
+    work : Workspace
     """
+    classes, proposed, pressed, residuals = model.classes, work.proposed, work.pressed, work.residuals
+    gram, pull, share = work.gram, work.pull, work.share
     n_pressed = 0
     square = 0.0
     for t in range(image.shape[0]):
-        if image[t] > touch_counts and sigma[t] <= known_counts:
+        if image[t] > touch_counts and sigma[t] <= KNOWN_COUNTS:
             pressed[n_pressed] = t
             n_pressed += 1
             square += np.float64(image[t]) * np.float64(image[t])
@@ -136,24 +225,9 @@ def class_residuals(
         residuals[number] = 1.0
     if square <= 0:
         return False
-    n = _propose(compared, explained, class_first, class_columns, most_classes, most_columns, proposed)
-    for i in range(n):
-        column = columns[proposed[i]]
-        pull[i] = 0.0
-        for e in range(n_pressed):
-            pull[i] += column[pressed[e]] * image[pressed[e]]
-        for j in range(i + 1):
-            gram[i, j] = products[proposed[i], proposed[j]]
-    for t in range(image.shape[0]):
-        if sigma[t] <= known_counts:
-            continue
-        for i in range(n):
-            there[i] = columns[proposed[i], t]
-        for i in range(n):
-            if there[i] != 0:
-                for j in range(i + 1):
-                    gram[i, j] -= there[i] * there[j]
-    _solve(n, gram, pull, factor, share)
+    n = _propose(compared, explained, model, proposed)
+    _normal_equations(n, n_pressed, image, sigma, model, work)
+    _solve(n, work)
     for i in range(n):
         # Columns of a class follow one another: the first of them sums for all.
         number = classes[proposed[i]]
@@ -168,57 +242,3 @@ def class_residuals(
                 left += 2.0 * share[j] * share[k] * gram[j, k]
         residuals[number] = np.sqrt(max(left, 0.0) / square)
     return True
-
-
-class Model:
-    """A library as `class_residuals` reads it.
-
-    Parameters
-    ----------
-    library : ObjectLibrary
-    """
-
-    def __init__(self, library: ObjectLibrary) -> None:
-        self.columns = np.ascontiguousarray(library.columns.T)
-        exact = self.columns.astype(np.float64)
-        self.products = exact @ exact.T
-        self.classes = library.classes
-        self.class_first, self.class_columns = by_class(library.classes, library.n_classes)
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """The arrays in the order in which `class_residuals` takes them."""
-        return (self.columns, self.products, self.classes, self.class_first, self.class_columns)
-
-
-class Workspace:
-    """The buffers that `class_residuals` works in, allocated once.
-
-    Parameters
-    ----------
-    n_taxels, n_classes : int
-    most_columns : int
-        Columns proposed at most.
-    """
-
-    def __init__(self, n_taxels: int, n_classes: int, most_columns: int) -> None:
-        self.proposed = np.zeros(most_columns, dtype=np.int64)
-        self.pressed = np.zeros(n_taxels, dtype=np.int64)
-        self.gram = np.zeros((most_columns, most_columns))
-        self.factor = np.zeros((most_columns, most_columns))
-        self.pull = np.zeros(most_columns)
-        self.share = np.zeros(most_columns)
-        self.there = np.zeros(most_columns)
-        self.residuals = np.ones(n_classes, dtype=np.float32)
-
-    def arrays(self) -> tuple[NDArray, ...]:
-        """The arrays in the order in which `class_residuals` takes them."""
-        return (
-            self.proposed,
-            self.pressed,
-            self.gram,
-            self.factor,
-            self.pull,
-            self.share,
-            self.there,
-            self.residuals,
-        )

@@ -29,6 +29,8 @@ from acts_recon.sparse.fastomp_model import (
     Q_ROWS,
     RESIDUAL_ROWS,
     Y_ROWS,
+    PatchModel,
+    Problems,
 )
 
 _REGULARISATION = np.float32(REGULARISATION)
@@ -41,27 +43,22 @@ def pursue(
     blocks: NDArray[np.float32],
     atoms: NDArray[np.float32],
     n_problems: int,
-    pixels: NDArray[np.uint32],
-    table: NDArray[np.int32],
-    rows: NDArray[np.float32],
-    systems: NDArray[np.float32],
-    sums: NDArray[np.float32],
-    largest: NDArray[np.float32],
+    problems: Problems,
 ) -> None:
     """`acts_recon.sparse.fastomp.fast_omp` on several problems with the same dictionary, in step.
 
-    The dictionary: as `fastomp_model.in_blocks` lays it out, and with an atom a row. Then the buffers of
-    `fastomp_model.Problems`, filled in for the first `n_problems` of ``table[ORDER]``, whose contents are
-    overwritten.
+    The dictionary: as `fastomp_model.in_blocks` lays it out, and with an atom a row. The problems are filled in for the
+    first `n_problems` of ``table[ORDER]``, whose contents are overwritten.
     """
+    pixels, table, rows = problems.pixels, problems.table, problems.rows
     active = n_problems
     i = 0
     while active > 0:
         # Pixels that read 0 come last and add nothing to the first correlations, which leave them out.
         counts = table[PRESSED if i == 0 else MEASURED]
         residuals = rows[Y_ROWS if i == 0 else RESIDUAL_ROWS]
-        choose(blocks, pixels, residuals, counts, table[ORDER], active, sums, largest, table[BEST])
-        active = _project(i, active, atoms, pixels, table, rows, systems)
+        choose(blocks, pixels, residuals, counts, table[ORDER], active, problems.sums, problems.largest, table[BEST])
+        active = _project(i, active, atoms, pixels, table, rows, problems.systems)
         i += 1
 
 
@@ -215,32 +212,23 @@ def solve(problem: int, s: int, systems: NDArray[np.float32]) -> None:
 
 @kernel(fastmath=FASTMATH)
 def recover_image(
-    blocks: NDArray[np.float32],
-    atoms: NDArray[np.float32],
-    corners: NDArray[np.uint32],
-    holders: NDArray[np.uint32],
-    share: NDArray[np.float32],
-    side: int,
-    stride: int,
+    model: PatchModel,
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     touch_counts: int,
     count_max: int,
     ratio: float,
     keep_measured: bool,
-    pixels: NDArray[np.uint32],
-    table: NDArray[np.int32],
-    rows: NDArray[np.float32],
-    systems: NDArray[np.float32],
-    sums: NDArray[np.float32],
-    largest: NDArray[np.float32],
+    problems: Problems,
     image: NDArray[np.float32],
 ) -> None:
     """Recover the image of one frame, which `acts_recon.images.PlacedSamples` has accepted, into `image`.
 
-    First what `acts_recon.sparse.fastomp_model.PatchModel` is made of, then the frame, the settings, and the buffers of
-    `acts_recon.sparse.fastomp_model.workspace`. `image` is flat. Values are clipped to 0 to `count_max`.
+    `problems` is of `acts_recon.sparse.fastomp_model.workspace`, with the same `ratio` of atoms per measured taxel.
+    `image` is flat. Values are clipped to 0 to `count_max`.
     """
+    atoms, corners, holders, side = model.atoms, model.corners, model.holders, model.side
+    pixels, table, rows, systems = problems.pixels, problems.table, problems.rows, problems.systems
     size = image.shape[0]
     m = indices.shape[0]
     n_patches = corners.shape[0]
@@ -256,7 +244,7 @@ def recover_image(
     _scatter(False, touch_counts, indices, counts, holders, measured, pixels, y)
     for patch in range(n_patches):
         table[ALLOWED, patch] = max(1, int(ratio * measured[patch] + 0.5))
-    pursue(blocks, atoms, n_pressed, pixels, table, rows, systems, sums, largest)
+    pursue(model.blocks, atoms, n_pressed, problems)
 
     for t in range(size):
         image[t] = 0.0
@@ -269,13 +257,13 @@ def recover_image(
             coefficient = systems[patch, j, systems.shape[1]]
             atom = atoms[np.uint32(table[CHOSEN + j, patch])]
             for row in range(side):
-                first = int(corners[patch]) + row * stride
+                first = int(corners[patch]) + row * model.stride
                 line, part = image[first : first + side], atom[row * side : (row + 1) * side]
                 for column in range(side):
                     line[column] += coefficient * part[column]
     top = np.float32(count_max)
     for t in range(size):
-        image[t] = min(max(image[t] * share[t], np.float32(0.0)), top)
+        image[t] = min(max(image[t] * model.share[t], np.float32(0.0)), top)
     if keep_measured:
         for i in range(m):
             image[indices[i]] = np.float32(counts[i]) if counts[i] > touch_counts else np.float32(0.0)

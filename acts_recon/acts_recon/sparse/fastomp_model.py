@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,48 +45,60 @@ def in_blocks(atoms: NDArray[np.floating]) -> NDArray[np.float32]:
     return _aligned(filled.reshape(n_pixels, n_blocks, BLOCK).transpose(1, 0, 2))
 
 
-class PatchModel:
+class PatchModel(NamedTuple):
     """A dictionary and a layout as `acts_recon.sparse.fastomp_kernels.recover_image` takes them.
 
     Pixels of a patch are numbered row by row here, as taxels are: whole rows of a patch go to the image at once.
 
-    Parameters
+    Attributes
     ----------
-    layout : PatchLayout
-    atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
-        Dictionary, pixels numbered as by `PatchLayout`.
+    blocks : np.ndarray [shape=(n_blocks, n_pixels, BLOCK), dtype=float32]
+        See `in_blocks`.
+    atoms : np.ndarray [shape=(n_atoms, n_pixels), dtype=float32]
+    corners : np.ndarray [shape=(n_patches,), dtype=uint32]
+        First taxel of each patch.
+    holders : np.ndarray [shape=(n_taxels, 1 + 2 * most), dtype=uint32]
+        For every taxel how many patches hold it, then for each of them which patch, and which pixel of it.
+    share : np.ndarray [shape=(n_taxels,), dtype=float32]
+        One over the number of patches that hold a taxel.
+    side, stride : int
+        Taxels in a row of a patch, and of the image.
     """
 
-    def __init__(self, layout: PatchLayout, atoms: NDArray[np.floating]) -> None:
+    blocks: NDArray[np.float32]
+    atoms: NDArray[np.float32]
+    corners: NDArray[np.uint32]
+    holders: NDArray[np.uint32]
+    share: NDArray[np.float32]
+    side: int
+    stride: int
+
+    @classmethod
+    def of(cls, layout: PatchLayout, atoms: NDArray[np.floating]) -> PatchModel:
+        """Of a layout and a dictionary.
+
+        Parameters
+        ----------
+        layout : PatchLayout
+        atoms : np.ndarray [shape=(size * size, n_atoms), dtype=float]
+            Pixels numbered as by `PatchLayout`.
+        """
         # This numbering is its own inverse.
         column_first = np.arange(layout.size**2).reshape(layout.size, layout.size).T.ravel()
         by_rows = atoms[column_first]
-        self._arguments: tuple[NDArray | int, ...] = (
-            in_blocks(by_rows),
-            _aligned(by_rows.T),
-            layout.taxels[:, 0].astype(np.uint32),
-            _holders(layout, column_first),
-            (1 / layout.overlap).astype(np.float32),
-            layout.size,
-            layout.cols,
+        return cls(
+            blocks=in_blocks(by_rows),
+            atoms=_aligned(by_rows.T),
+            corners=layout.taxels[:, 0].astype(np.uint32),
+            holders=_holders(layout, column_first),
+            share=(1 / layout.overlap).astype(np.float32),
+            side=layout.size,
+            stride=layout.cols,
         )
 
-    def arguments(self) -> tuple[NDArray | int, ...]:
-        """In the order in which `recover_image` takes them."""
-        return self._arguments
 
-
-class Problems:
-    """The buffers of `acts_recon.sparse.fastomp_kernels.pursue`: few and large, since each costs every call time.
-
-    Parameters
-    ----------
-    n : int
-        Problems at most.
-    n_pixels : int
-        Measured pixels of each at most.
-    n_atoms : int
-        Atoms that each is allowed at most.
+class Problems(NamedTuple):
+    """The buffers of `acts_recon.sparse.fastomp_kernels.pursue`.
 
     Attributes
     ----------
@@ -105,27 +118,34 @@ class Problems:
         For work: correlations with the atoms of a block, and the largest of each problem.
     """
 
-    def __init__(self, n: int, n_pixels: int, n_atoms: int) -> None:
-        self.pixels = np.zeros((n, n_pixels), dtype=np.uint32)
-        self.table = np.zeros((CHOSEN + n_atoms, n), dtype=np.int32)
-        self.rows = _aligned(np.zeros((Q_ROWS + n_atoms, n, n_pixels)))
-        self.systems = np.zeros((n, n_atoms, n_atoms + 1), dtype=np.float32)
-        self.sums = _aligned(np.zeros(BLOCK))
-        self.largest = np.zeros(n, dtype=np.float32)
+    pixels: NDArray[np.uint32]
+    table: NDArray[np.int32]
+    rows: NDArray[np.float32]
+    systems: NDArray[np.float32]
+    sums: NDArray[np.float32]
+    largest: NDArray[np.float32]
 
-    def arrays(self) -> tuple[NDArray, ...]:
-        """In the order in which `pursue` and `recover_image` take them."""
-        return (self.pixels, self.table, self.rows, self.systems, self.sums, self.largest)
+    @classmethod
+    def empty(cls, n: int, n_pixels: int, n_atoms: int) -> Problems:
+        """For at most `n` problems, each with at most so many measured pixels and allowed atoms."""
+        return cls(
+            pixels=np.zeros((n, n_pixels), dtype=np.uint32),
+            table=np.zeros((CHOSEN + n_atoms, n), dtype=np.int32),
+            rows=_aligned(np.zeros((Q_ROWS + n_atoms, n, n_pixels))),
+            systems=np.zeros((n, n_atoms, n_atoms + 1), dtype=np.float32),
+            sums=_aligned(np.zeros(BLOCK)),
+            largest=np.zeros(n, dtype=np.float32),
+        )
 
 
 def workspace(layout: PatchLayout, ratio: float = SPARSITY_RATIO) -> Problems:
     """The buffers that `recover_image` works in, with `ratio` atoms per measured pixel."""
     n_pixels = layout.size**2
-    return Problems(layout.n_patches, n_pixels, sparsity(n_pixels, ratio))
+    return Problems.empty(layout.n_patches, n_pixels, sparsity(n_pixels, ratio))
 
 
 def _holders(layout: PatchLayout, pixel_of: NDArray[np.integer]) -> NDArray[np.uint32]:
-    """For every taxel how many patches hold it, then for each of them which patch, and which pixel of it."""
+    """`PatchModel.holders`."""
     counts = np.diff(layout.entry_start)
     holders = np.zeros((counts.size, 1 + 2 * int(counts.max())), dtype=np.uint32)
     holders[:, 0] = counts

@@ -69,8 +69,8 @@ class Reconstructor:
         patches = patch_layout(
             geometry.rows, geometry.cols, size=dictionary.patch_size, step=self.config.patch_step, borders=borders
         )
-        self._model = PatchModel(patches, dictionary.atoms).arguments()
-        self._workspace = workspace(patches, self.config.sparsity_ratio).arrays()
+        self._model = PatchModel.of(patches, dictionary.atoms)
+        self._workspace = workspace(patches, self.config.sparsity_ratio)
         self._flat = np.zeros(geometry.size, dtype=np.float32)
         self.image: NDArray[np.float32] = self._flat.reshape(geometry.rows, geometry.cols)
         """The image of the last frame [counts, 0 to 1023]; np.ndarray [shape=(rows, cols), dtype=float32].
@@ -96,13 +96,13 @@ class Reconstructor:
         """
         config = self.config
         kernels.recover_image(
-            *self._model,
+            self._model,
             *self._samples.of(indices, counts),
             config.touch_counts,
             COUNT_MAX,
             config.sparsity_ratio,
             config.keep_measured,
-            *self._workspace,
+            self._workspace,
             self._flat,
         )
         return self.image

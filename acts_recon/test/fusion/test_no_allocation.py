@@ -76,9 +76,9 @@ def test_finding_and_following_contacts_allocates_nothing(allocations: Count) ->
 def test_recovering_a_frame_alone_allocates_nothing(dictionary: Dictionary, allocations: Count, m: int) -> None:
     layout = patch_layout(GEOMETRY.rows, GEOMETRY.cols)
     image = np.zeros(GEOMETRY.size, dtype=np.float32)
-    model, buffers = PatchModel(layout, dictionary.atoms).arguments(), workspace(layout).arrays()
+    model, buffers = PatchModel.of(layout, dictionary.atoms), workspace(layout)
     frame = sample(bump(GEOMETRY, 12, 14), m)
     given = sum(isinstance(value, np.ndarray) for value in (*model, *frame, *buffers, image))
     recover = fastomp_kernels.recover_image
-    assert allocations(lambda k: recover(*model, *frame, 60, 1023, 0.25, True, *buffers, image)) == given
+    assert allocations(lambda k: recover(model, *frame, 60, 1023, 0.25, True, buffers, image)) == given
     assert image.max() > 0

@@ -137,7 +137,8 @@ def test_a_library_of_one_object_always_finds_it() -> None:
 def test_frames_are_classified_without_allocating(objects: ObjectLibrary) -> None:
     classifier = ImageClassifier(objects)
     image, old = image_of(3.0), np.full_like(CERTAIN, 0.5)
-    for _ in range(3):
+    # Until CPython's cache of attributes, which keeps the names that numba looks up, is full.
+    for _ in range(1000):
         classifier.step(image, CERTAIN, old, 0.001)
     tracemalloc.start()
     try:

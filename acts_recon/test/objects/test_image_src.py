@@ -62,23 +62,14 @@ def test_kernel_equals_reference_on_random_images(n_classes: int, unknown: float
     rng = np.random.default_rng(n_classes)
     frames = rng.integers(0, 1024, (90, 12, 11)) * (rng.random((90, 12, 11)) < 0.4)
     library = build_object_library(frames, [f"object {i % n_classes}" for i in range(90)], touch_counts=15)
-    workspace = image_src_kernels.Workspace(132, n_classes, PROPOSED_CLASSES * PROPOSED_COLUMNS)
+    workspace = image_src_kernels.Workspace.empty(132, n_classes)
     for number in range(10):
         image = (frames[number].ravel() * rng.random() + 60 * rng.random(132)).astype(np.float32)
         sigma = (400 * (rng.random(132) < unknown)).astype(np.float32)
         compared = rng.random(n_classes).astype(np.float32)
         explained = rng.integers(0, 20, 90).astype(np.float32)
         found = image_src_kernels.class_residuals(
-            *image_src_kernels.Model(library).arrays(),
-            image,
-            sigma,
-            compared,
-            explained,
-            15.0,
-            KNOWN_COUNTS,
-            PROPOSED_CLASSES,
-            PROPOSED_COLUMNS,
-            *workspace.arrays(),
+            image_src_kernels.Model.of(library), image, sigma, compared, explained, 15.0, workspace
         )
         pressed = np.where(image > 15, image, 0)
         expected = src_residuals(library, proposed_columns(library, compared, explained), pressed, sigma)

@@ -115,14 +115,14 @@ def recover_by_kernel(
 ) -> NDArray[np.float32]:
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
     kernels.recover_image(
-        *PatchModel(layout, atoms).arguments(),
+        PatchModel.of(layout, atoms),
         indices,
         counts,
         60,
         1023,
         ratio,
         keep,
-        *workspace(layout, ratio).arrays(),
+        workspace(layout, ratio),
         image,
     )
     return image.reshape(layout.rows, layout.cols)

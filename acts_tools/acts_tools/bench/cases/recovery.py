@@ -158,12 +158,12 @@ def _compare(
 
 
 def _recovery(layout: PatchLayout, atoms: NDArray[np.float32]) -> Callable[[Samples], None]:
-    model = PatchModel(layout, atoms).arguments()
-    buffers = workspace(layout).arrays()
+    model = PatchModel.of(layout, atoms)
+    buffers = workspace(layout)
     image = np.zeros(layout.rows * layout.cols, dtype=np.float32)
 
     def recover(samples: Samples) -> None:
-        kernels.recover_image(*model, *samples, TOUCH_COUNTS, COUNT_MAX, SPARSITY_RATIO, True, *buffers, image)
+        kernels.recover_image(model, *samples, TOUCH_COUNTS, COUNT_MAX, SPARSITY_RATIO, True, buffers, image)
 
     return recover
 
