@@ -20,6 +20,7 @@ from acts_recon.fusion.fusion_image_kernels import (
     UNPROVEN_WEIGHT,
 )
 from acts_recon.fusion.fusion_kernels import (
+    LEAST_MOTION_S,
     LONGEST_AGE_S,
     NEW_CONTACT_AGE_S,
     NIS_PRIOR_SAMPLES,
@@ -173,6 +174,7 @@ class FusionReference:
         row, col = np.indices(self.estimate.shape)
         places = np.array([row - by_rows * elapsed, col - by_cols * elapsed])
         moved = ndimage.map_coordinates(self.estimate, places, order=1, mode="nearest")
+        moved = np.where(elapsed > LEAST_MOTION_S, moved, self.estimate)
         slope = np.where(
             (self.age < tuning.horizon_s) & ~self.low, self.slope * np.exp(-self.age / tuning.damping_s), 0
         )

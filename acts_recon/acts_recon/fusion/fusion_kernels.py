@@ -49,6 +49,8 @@ REACH = 2
 PROCESS_NOISE_GAIN = 0.3
 # Added to the time between two measurements, so that errors over short times are not taken for fast changes [s].
 SHORTEST_S = 5e-4
+# Motion is not followed over less [s]: within that a float32 shows none, and the rate would be one of roundings.
+LEAST_MOTION_S = 1e-5
 # An innovation on a taxel that was not measured within the horizon is a new contact, assumed to be this old [s].
 NEW_CONTACT_AGE_S = 3e-3
 # Step of the logarithm of the scale of all variances per normalised innovation squared above 1, and its limit.
@@ -134,9 +136,10 @@ def _predict(state: State, period_s: float, cols: int, tuning: Tuning) -> None:
                 for col in range(first_col, min(first_col + TILE, right)):
                     i = row * cols + col
                     time = elapsed[i]
-                    came = moved(
-                        before, row, col, velocity[1] * time, velocity[0] * time, top, bottom, left, right, cols
-                    )
+                    came = before[i]
+                    if time > _F(LEAST_MOTION_S):
+                        back_rows, back_cols = velocity[1] * time, velocity[0] * time
+                        came = moved(before, row, col, back_rows, back_cols, top, bottom, left, right, cols)
                     change = share * (came - before[i]) + (_F(1) - share) * rate[i] * time
                     rate[i] = change / time if time > _F(0) else _F(0)
                     estimate[i] = min(max(before[i] + change, _F(0)), _TOP)
