@@ -137,18 +137,18 @@ def test_a_library_of_one_object_always_finds_it() -> None:
 def test_frames_are_classified_without_allocating(objects: ObjectLibrary) -> None:
     classifier = ImageClassifier(objects)
     image, old = image_of(3.0), np.full_like(CERTAIN, 0.5)
-    # Until CPython's cache of attributes, which keeps the names that numba looks up, is full.
-    for _ in range(1000):
-        classifier.step(image, CERTAIN, old, 0.001)
-    tracemalloc.start()
-    try:
-        for _ in range(50):
-            classifier.step(image, CERTAIN, old, 0.001)
-        peak = tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
-    # Views and numbers; a single copy of the image would be 4096 bytes.
-    assert peak < 3500
+    peaks = []
+    for _ in range(40):
+        tracemalloc.start()
+        try:
+            for _ in range(50):
+                classifier.step(image, CERTAIN, old, 0.001)
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    # Views and numbers; a single copy of the image would be 4096 bytes. At first, and whenever CPython has emptied its
+    # cache of attributes, the names that numba looks up are kept there, too.
+    assert min(peaks) < 3500
 
 
 @given(st.lists(st.floats(0, 2, width=32), min_size=1, max_size=40))
