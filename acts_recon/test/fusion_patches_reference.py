@@ -50,6 +50,11 @@ class PatchesReference:
         for part in self.parts:
             part.forget()
 
+    def round_to_single(self) -> None:
+        """See `FusionReference.round_to_single`."""
+        for part in self.parts:
+            part.round_to_single()
+
     def field(self, name: str) -> Floats:
         """One of the arrays of `FusionReference`, of the whole skin."""
         whole = np.zeros(self._shape)

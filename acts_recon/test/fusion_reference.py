@@ -127,6 +127,17 @@ class FusionReference:
         self._show(rate, unexplained)
         self._update_sigma()
 
+    def round_to_single(self) -> None:
+        """Round the state to float32, in which the kernels keep it."""
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray) and value.dtype == np.float64:
+                setattr(self, name, value.astype(np.float32).astype(np.float64))
+
+    def field(self, name: str) -> Floats:
+        """One of the arrays, by its name."""
+        field: Floats = getattr(self, name)
+        return field
+
     def _by_tile(self, values: Floats) -> Floats:
         """Sums over the taxels of each tile."""
         rows, cols = values.shape
