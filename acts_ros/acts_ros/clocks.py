@@ -100,10 +100,30 @@ class Stalls:
             return ""
         return f"this program stood still for {self._stood_still_s:.1f} s, and was perhaps asked meanwhile; ask again"
 
+    def since(self, asked_s: float) -> str:
+        """That the node has stood still since a moment, in words; empty where it has not. From any thread.
+
+        Parameters
+        ----------
+        asked_s : float
+            When something was asked for that is about to be done, by CLOCK_BOOTTIME [s].
+        """
+        # Nothing is noted here: the executor has not looked meanwhile, and what waits for it is as old as before. Where
+        # it looks just now, it has noted how long it stood still before it says when it has looked.
+        now_s, looked_s = _now_s(), self._looked_s
+        ended_s, stood_still_s = self._ended_s, self._stood_still_s
+        if math.isfinite(looked_s) and now_s - looked_s > self._longest_s:
+            ended_s, stood_still_s = now_s, now_s - looked_s
+        return f"this program stood still for {stood_still_s:.1f} s" if ended_s >= asked_s else ""
+
     def _look(self) -> float:
-        # Unlike that of `time.monotonic`, this clock also runs while the machine sleeps: a laptop that is opened again.
-        now_s, before_s = time.clock_gettime(time.CLOCK_BOOTTIME), self._looked_s
-        self._looked_s = now_s
+        now_s, before_s = _now_s(), self._looked_s
         if math.isfinite(before_s) and now_s - before_s > self._longest_s:
             self._ended_s, self._stood_still_s = now_s, now_s - before_s
+        self._looked_s = now_s
         return now_s
+
+
+def _now_s() -> float:
+    # Unlike that of `time.monotonic`, this clock also runs while the machine sleeps: a laptop that is opened again.
+    return time.clock_gettime(time.CLOCK_BOOTTIME)

@@ -94,6 +94,9 @@ class ControlLoop:
     ----------
     look : callable
         Called at the begin of every control step with the phase; may renew `ball` and `reference`.
+    stood_still : callable
+        Takes when a start was asked for, by `loop_rate.steady_s` [s], or inf; in words that this program has stood
+        still since, or nothing.
     ball : BallReport or None
         Newest estimate, to be set by `look` or by whoever receives it.
     reference : ReferenceReport or None
@@ -113,6 +116,7 @@ class ControlLoop:
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self.look: Callable[[Phase], None] = lambda _phase: None
+        self.stood_still: Callable[[float], str] = lambda _asked_s: ""
         self.ball: BallReport | None = None
         self.reference: ReferenceReport | None = None
         self.status = LoopStatus()
@@ -123,9 +127,11 @@ class ControlLoop:
         self._on_step = on_step
         self._steady_s = steady_s
         self._sleep = sleep
-        # Guards the three below, and wakes the thread when one changes.
+        # Guards the four below, and wakes the thread when one changes.
         self._changed = threading.Condition()
         self._wanted = False
+        # When the session was asked for by `start` [s].
+        self._asked_s = inf
         # What ended the session asked for, in words; empty while it should go on.
         self._stop_reason = ""
         self._closing = False
@@ -150,6 +156,7 @@ class ControlLoop:
                 return False
             self._stop_reason = ""
             self._wanted = True
+            self._asked_s = self._steady_s()
             # At once, although the thread may still be cutting the last connection: what ended that is past.
             self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")
             self._changed.notify_all()
@@ -215,9 +222,9 @@ class ControlLoop:
 
     def _connect(self) -> bool:
         self.status = LoopStatus(phase=Phase.CONNECTING, reason="connecting")
-        while not self._stop_reason:
+        while self._may_go_on():
             try:
-                self._robot.connect(lambda: not self._stop_reason)
+                self._robot.connect(self._may_go_on)
                 return True
             except (RobotStoppedError, RobotTakenError):
                 raise
@@ -227,10 +234,17 @@ class ControlLoop:
                 self._changed.wait_for(lambda: self._stop_reason, self._config.connect_retry_s)
         return False
 
+    def _may_go_on(self) -> bool:
+        """Whether the robot may still begin to move; who asked for that may have come near while nothing happened."""
+        stood_still = self.stood_still(self._asked_s)
+        if stood_still:
+            self.stop(f"{stood_still} while it connected; call start again")
+        return not self._stop_reason
+
     def _home(self, watch: RobotWatch) -> bool:
-        """Move to the level pose; False when that was broken off by request."""
-        if self._stop_reason:
-            return False  # asked for while the robot was just connected
+        """Move to the level pose; False when that was broken off."""
+        if not self._may_go_on():
+            return False  # no more since the robot was just connected
         self.status = replace(self.status, phase=Phase.HOMING, reason="moving to the level pose")
         before = self._checked(watch, 0.0).joints
         timeout_s = self._robot.begin_levelling()

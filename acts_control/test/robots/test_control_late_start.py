@@ -40,3 +40,26 @@ def test_a_start_that_waited_while_the_program_stood_still_moves_no_arm() -> Non
             assert robot.orders() == []
             wait_for(lambda: bench.call("start").success, "a start that is new")
             bench.await_phase(BalanceStatus.STATE_WAITING)
+
+
+def test_a_start_from_before_the_program_stood_still_moves_no_arm_that_answers_afterwards() -> None:
+    settings = ["--set", "ball_control.robot_ip=127.0.205.2", "--set", "ball_control.autostart=false"]
+    settings += ["--set", "ball_control.robot_stale_after_s=2.0"]
+    with Bench(205) as bench:
+        bench.start()
+        with Process(*node_command("ball_balancing", *settings), domain=205) as ours:
+            bench.await_phase(BalanceStatus.STATE_STOPPED)
+            wait_for(lambda: bench.call("start").success, "a start")
+            bench.await_phase(BalanceStatus.STATE_CONNECTING)
+            ours.process.send_signal(signal.SIGSTOP)
+            begin_s = time.monotonic()
+            with SimulatedRobot("127.0.205.2") as robot:
+                wait_for(lambda: time.monotonic() - begin_s > 1.5, "the time to pass")
+                ours.process.send_signal(signal.SIGCONT)
+                status = bench.await_phase(BalanceStatus.STATE_STOPPED)
+                assert status.reason.startswith("this program stood still for ")
+                assert status.reason.endswith(" while it connected; call start again")
+                assert robot.orders() == []
+                # One that is new is done.
+                wait_for(lambda: bench.call("start").success, "another start")
+                bench.await_phase(BalanceStatus.STATE_WAITING)

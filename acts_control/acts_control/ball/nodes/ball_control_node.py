@@ -110,6 +110,7 @@ class BallControlNode(Node):
             self.create_subscription(BallState, STATE_TOPIC, self._on_state, STATE)
             self.create_subscription(BallReference, REFERENCE_TOPIC, self._on_reference, STATE)
         self._stalls = Stalls(self)
+        self._loop.stood_still = self._stalls.since
         self.create_service(Trigger, "~/start", self._on_start)
         self.create_service(Trigger, "~/stop", self._on_stop)
         self._status_timer = steady_timer(self, 1.0 / settings.status_rate_hz, self._publish_status)

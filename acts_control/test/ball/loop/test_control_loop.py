@@ -15,6 +15,7 @@ from waiting import wait_for
 
 from acts_control.ball import LoopConfig, Phase
 from acts_control.ball.controller import BallController
+from acts_control.loop_rate import steady_s
 from acts_control.robots.base import CommandRefusedError, RobotStoppedError
 from acts_core.errors import RobotError
 
@@ -112,6 +113,28 @@ def test_an_arm_does_not_move_after_a_stop_that_comes_as_it_is_connected(
     assert await_stop(loop) == "stopped by request"
     wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
     assert arm.calls == ["connect", "release", "disconnect"]
+
+
+@pytest.mark.parametrize("attempts", [1, 3])
+def test_an_arm_does_not_move_by_a_start_from_before_the_program_stood_still(
+    arm: ArmInProcess, make: Make, monkeypatch: pytest.MonkeyPatch, attempts: int
+) -> None:
+    loop = make(autostart=False)
+    connect, is_late = arm.connect, False
+
+    def stands_still_meanwhile(is_wanted: Callable[[], bool]) -> None:
+        nonlocal is_late
+        is_late = arm.calls.count("connect") + 1 == attempts
+        connect(is_wanted)
+
+    arm.connect_errors = [RobotError("not there")] * (attempts - 1)
+    monkeypatch.setattr(arm, "connect", stands_still_meanwhile)
+    told = "this program stood still for 3.0 s"
+    loop.stood_still = lambda asked_s: told if is_late and asked_s < steady_s() else ""
+    assert loop.start()
+    assert await_stop(loop) == f"{told} while it connected; call start again"
+    wait_for(lambda: arm.calls[-1] == "disconnect", "the end of the connection")
+    assert arm.calls == ["connect"] * attempts + ["release", "disconnect"]
 
 
 def test_a_robot_held_by_a_safety_function_is_not_waited_for(arm: ArmInProcess, make: Make) -> None:
