@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_descr
 from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
 from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
+from acts_control.loop_rate import steady_s
 from acts_core.skin import RegionContact
 
 pytestmark = pytest.mark.slow
@@ -285,6 +287,22 @@ def test_what_was_asked_for_before_the_hand_was_lost_is_not_done_when_it_is_back
     assert hand.supervisor.grasp() == ""
     hand.supervisor.restart(recovered=False)
     assert hand.step([], steps=50) is HandState.STOPPED
+
+
+def test_a_grasp_from_before_the_program_stood_still_is_not_done_afterwards() -> None:
+    hand = a_hand()
+    still_at_s = -math.inf
+    hand.supervisor.stood_still = lambda asked_s: "it stood still for 3.0 s" if still_at_s >= asked_s else ""
+    assert hand.supervisor.grasp() == ""
+    # A motor is being started anew.
+    still_at_s = steady_s()
+    hand.supervisor.restart(recovered=True)
+    goal = hand.goal.copy()
+    assert hand.step([], steps=50) is HandState.STOPPED
+    assert np.array_equal(hand.goal, goal)
+    assert hand.supervisor.status.reason == "it stood still for 3.0 s before it began to close; grasp anew"
+    assert hand.supervisor.grasp() == ""
+    assert hand.step([]) is HandState.CLOSING
 
 
 def test_a_finger_that_cannot_come_into_its_shape_does_not_keep_the_hand_from_closing() -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,6 +22,7 @@ from acts_control.hand.control.touch import HandTouch, no_touch
 from acts_control.hand.description import HandKinematics
 from acts_control.hand.motors import HandReading
 from acts_control.hand.reflexes import HandState, Reflex, Sensed, Wish
+from acts_control.loop_rate import steady_s
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_core.skin import RegionContact
@@ -97,6 +98,9 @@ class HandSupervisor:
     ----------
     status : SupervisorStatus
         Replaced as a whole.
+    stood_still : callable
+        Takes when a grasp was asked for, by `loop_rate.steady_s` [s]; in words that this program has stood still since,
+        or nothing.
     """
 
     def __init__(self, kinematics: HandKinematics, reflexes: Mapping[str, Reflex], config: SupervisorConfig) -> None:
@@ -108,11 +112,13 @@ class HandSupervisor:
         self._reflexes = dict(sorted(reflexes.items(), key=lambda item: -item[1].priority))
         self._config = config
         self.status = SupervisorStatus(events=self._events())
+        self.stood_still: Callable[[float], str] = lambda _asked_s: ""
         self._rule = StepRule(self._hand, config)
         self._state, self._reason = self.status.state, self.status.reason
         self._resumed = self._state
         # The last one counts. Filled from any thread: nothing that comes in between is overwritten.
         self._wanted: deque[str] = deque()
+        self._asked_s = math.inf  # when the last grasp was asked for
         self._grasp = Grasp(config)
         self._touch = HandTouch(kinematics)
         self._was_stale = True
@@ -124,6 +130,7 @@ class HandSupervisor:
         """Close until something is gripped, then hold it; why that cannot be, or nothing."""
         if self.status.is_stale:
             return f"{no_touch(self.status.touch_age_s)}: is the skin's topic `regions` published?"
+        self._asked_s = steady_s()
         self._wanted.append("grasp")
         return ""
 
@@ -325,7 +332,11 @@ class HandSupervisor:
         wanted = ""
         while self._wanted:
             wanted = self._wanted.popleft()
-        if wanted == "grasp":
+        stood_still = self.stood_still(self._asked_s) if wanted == "grasp" else ""
+        if stood_still:
+            # As while a motor was started anew: there may be a hand of somebody's between the fingers by now.
+            self._become(HandState.STOPPED, f"{stood_still} before it began to close; grasp anew")
+        elif wanted == "grasp":
             self._reset_reflexes()
             self._grasp.reset()
             self._become(HandState.CLOSING, "grasp")

@@ -190,6 +190,7 @@ class HandReflexesNode(MotorNode):
         self._changes = LoggedChanges(self._told.state, self._told.reason)
         self._reported_refused = 0
         self.start_with(settings, self._touched, "disable", "regions")
+        self._supervisor.stood_still = self.stalls.since
         self.create_service(Trigger, "~/grasp", self._on_grasp)
         self.create_service(Trigger, "~/release", self._on_release)
         self.create_service(Trigger, "~/stop", self._on_stop)

@@ -21,7 +21,10 @@ from std_srvs.srv import Trigger
 
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.reflexes_node import HandReflexesNode
+from acts_control.hand.reflexes import HandState
+from acts_control.loop_rate import steady_s
 from acts_core.skin import RegionContact as Touch
 from acts_msgs.msg import HandStatus, HandTiming, RegionContact, RegionContacts
 from acts_ros.messages import ns_of
@@ -281,6 +284,27 @@ def test_what_is_asked_for_while_a_motor_is_started_anew_is_no_failure() -> None
         told = peers.listen(HandStatus, "hand/status", 10)
         given_up = "the hand is given up: index_pip: overload, 2 times"
         peers.until(lambda: told and told[-1].reason == given_up)
+    finally:
+        peers.close()
+
+
+def test_a_grasp_is_not_done_when_its_program_has_stood_still_since() -> None:
+    peers = Peers(DOMAIN_ID, "user")
+    # Its loop is not launched, and nobody spins: the node stays as it is put here.
+    hand = peers.add(HandReflexesNode(context=peers.context))
+    try:
+        hand.stalls.begin()
+        now_s = steady_s()
+        assert hand._supervisor.touch(all_regions(*GRIPPED), now_s, now_s)
+        hand._supervisor.watch(now_s)
+        assert hand._supervisor.grasp() == ""
+        hand.stalls._looked_s -= 5.0
+        hand._touched.restart(recovered=True)
+        none = (0.0,) * 16
+        hand._touched.step(HandReading(none, none, none, (30,) * 16, ("",) * 16), none, now_s, 0.004)
+        status = hand._supervisor.status
+        assert status.state is HandState.STOPPED
+        assert status.reason == "this program stood still for 5.0 s before it began to close; grasp anew"
     finally:
         peers.close()
 
