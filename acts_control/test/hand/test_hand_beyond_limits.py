@@ -1,0 +1,57 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Joints of a hand that are beyond their limits, or only seem to be."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+from hand_loop_rig import MadeBus
+from waiting import wait_for
+
+from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.description import LEAP_RIGHT
+
+# A hand whose joints, on motors with their zero in the middle, are between -2 and 2 rad.
+HAND = replace(LEAP_RIGHT, joints=tuple(replace(one, lower_rad=-2.0, upper_rad=2.0) for one in LEAP_RIGHT.joints))
+
+
+def loop_of(bus: MadeBus, upper_rad: float = 2.0) -> HandLoop:
+    joints = tuple(replace(one, upper_rad=upper_rad) for one in HAND.joints)
+    hand = replace(HAND, joints=joints)
+    return HandLoop(hand, bus, HandLoopConfig(connect_retry_s=0.05), lambda _level, _sentence: None)
+
+
+@pytest.mark.parametrize("turn_rad", [2.0 * math.pi, -2.0 * math.pi])
+def test_a_joint_whose_motor_counts_from_another_turn_is_not_brought_back(turn_rad: float) -> None:
+    bus = MadeBus()
+    # Within its limits, near the one or the other: a motor that has started anew has forgotten how often it had turned.
+    bus.q_rad = bus.moves_to_rad = [math.copysign(1.9, -turn_rad) + turn_rad] * 16
+    loop = loop_of(bus)
+    loop.launch()
+    try:
+        wait_for(lambda: loop.status.phase in (HandPhase.GIVEN_UP, HandPhase.ENABLED), "torque, or none")
+        assert loop.status.phase is HandPhase.GIVEN_UP
+        assert f"is said to be at {bus.q_rad[0]:.2f} rad" in loop.status.reason
+        assert not bus.has_torque
+        assert bus.sent == []
+    finally:
+        loop.close()
+
+
+@pytest.mark.parametrize(("q_rad", "upper_rad"), [(2.9, 2.0), (-2.9, 2.0), (2.1, 2.0), (7.0, 5.0)])
+def test_a_joint_that_is_nearest_to_the_limit_beyond_which_it_is_said_to_be_is_brought_back(
+    q_rad: float, upper_rad: float
+) -> None:
+    bus = MadeBus()
+    bus.q_rad = bus.moves_to_rad = [q_rad] * 16
+    loop = loop_of(bus, upper_rad)
+    loop.launch()
+    try:
+        wait_for(lambda: len(bus.sent) > 2, lambda: f"goals, {loop.status}")
+        assert abs(bus.sent[-1][0]) < abs(q_rad)
+    finally:
+        loop.close()
