@@ -6,7 +6,8 @@
 Slip is told by the regions (docs/slip.md). They look back over a window, so slip is told for a while after it has
 ceased; whether the pattern still moves is seen by its distance in the window still growing. All fingers that touch grip
 together, for one that grips alone pushes the object away. What was added is kept for a while, then taken back until a
-share of it is left, or to just above where the object last began to slip.
+share of it is left, or to just above where the object last began to slip. Around something firm a goal comes to its
+limits (`StepRule`) before all of that is added: of each joint's goal no more is taken back than it has moved by.
 
 Where weight shifts from one part of the skin to another, or a grip moves the object, a pattern moves as in a slip, but
 slowly and not far. For what is fragile, the first sign of a slip can be answered by a little of the grip
@@ -16,6 +17,9 @@ slowly and not far. For what is fragile, the first sign of a slip can be answere
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
 
 from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
@@ -74,6 +78,9 @@ class SlipPreventionConfig:
         validate(self)
 
 
+Array = NDArray[np.float64]
+
+
 @dataclass
 class SlipPreventionState:
     """What is remembered.
@@ -93,6 +100,8 @@ class SlipPreventionState:
     added, peak, floor : float
         Added grip now, the most of it, and where easing ends, in steps of a cycle at 60 Hz.
     is_slipping : bool
+    goals : AddedGoals or None
+        What that has made of the goals of the joints; None before the first slip.
     """
 
     distance_m: dict[str, float] = field(default_factory=dict)
@@ -104,6 +113,31 @@ class SlipPreventionState:
     peak: float = 0.0
     floor: float = 0.0
     is_slipping: bool = False
+    goals: AddedGoals | None = None
+
+
+class AddedGoals:
+    """How far the goals of the joints have really moved since the grip was first added to.
+
+    Parameters
+    ----------
+    goal_rad : np.ndarray [shape=(joints,)]
+        Where they are when the object begins to slip [rad].
+    """
+
+    def __init__(self, goal_rad: Array) -> None:
+        self._from_rad = self._highest_rad = self._floor_rad = goal_rad
+
+    def slips_again(self, goal_rad: Array) -> None:
+        """It did not hold with these: easing ends there."""
+        self._floor_rad = np.maximum(self._floor_rad, goal_rad)
+
+    def may_be_eased(self, goal_rad: Array, kept_share: float) -> NDArray[np.bool_]:
+        """Whose goals are still above what is kept; to be called in each step."""
+        self._highest_rad = np.maximum(self._highest_rad, goal_rad)
+        kept_rad = self._from_rad + kept_share * (self._highest_rad - self._from_rad)
+        above: NDArray[np.bool_] = goal_rad > np.maximum(kept_rad, self._floor_rad)
+        return above
 
 
 class SlipPrevention(Reflex):
@@ -128,6 +162,8 @@ class SlipPrevention(Reflex):
                 self.events += 1
                 # It did not hold with this: easing ends above.
                 state.floor = max(state.floor, state.added)
+                state.goals = state.goals or AddedGoals(sensed.goal_rad)
+                state.goals.slips_again(sensed.goal_rad)
             if sensed.time_s - state.grown_s > config.slip_settle_s:
                 state.first_s, state.on_m = sensed.time_s, {}
                 state.most = min(state.added + config.slip_first_steps, config.slip_max_added_steps)
@@ -138,6 +174,7 @@ class SlipPrevention(Reflex):
         elif sensed.time_s - state.grown_s > config.slip_quiet_s:
             state.is_slipping = False
         cycles = sensed.dt_s * 60.0
+        above = state.goals.may_be_eased(sensed.goal_rad, config.slip_kept_share) if state.goals is not None else None
         if state.is_slipping:
             steps = min(config.slip_grip_steps, (state.most - state.added) / cycles)
             why = f"{told or 'object'} slips: grip up"
@@ -151,6 +188,8 @@ class SlipPrevention(Reflex):
         for finger in sensed.hand.fingers:
             if any(one.in_contact for one in sensed.of_finger(finger)):
                 wanted += steps * sensed.closing(finger)
+        if steps < 0.0 and above is not None:
+            wanted *= above
         return Wish(wanted, why, at_once=steps > 0.0)
 
     def _goes_on(self, sensed: Sensed) -> bool:

@@ -133,6 +133,26 @@ def test_the_added_grip_is_eased_slowly_to_a_share_and_not_below_where_it_slippe
     assert reflex.state.floor == pytest.approx(eased)
 
 
+def test_no_more_is_eased_than_was_added_where_the_goals_could_not_follow() -> None:
+    hand = RigidHand(("slip", SlipPrevention(SlipPreventionConfig())))
+    hand.supervisor.restart(recovered=False)
+    held = [region(f"{finger}_distal", 0.8) for finger in LEAP_RIGHT.fingers]
+    hand.step(held)
+    hand.supervisor.grasp()
+    assert hand.step(held, steps=100) is HandState.HOLDING
+    # Something firm: the joints stay, and press by how far their goals are ahead.
+    hand.stops = {name: hand.angle(name) - 0.06 for name in LEAP_RIGHT.names}
+    before, firmest = hand.goal.copy(), hand.goal.copy()
+    for k in range(1000):
+        hand.step([slipping("index_distal", 1e-4 * (k + 1)), *held[1:]] if k < 5 else held)
+        firmest = np.maximum(firmest, hand.goal)
+    # By the limits of lead and current, less than the 11 steps of 0.02 rad that were asked for.
+    assert 0.02 < (firmest - before).max() < 0.1
+    share = SlipPreventionConfig().slip_kept_share
+    assert (hand.goal - before >= share * (firmest - before) - 1e-3).all()
+    assert hand.goal.max() < firmest.max(), "eased"
+
+
 def test_the_grip_that_is_added_has_an_end() -> None:
     reflex = SlipPrevention(SlipPreventionConfig(slip_max_added_steps=3.0))
     for k in range(100):
