@@ -205,7 +205,7 @@ def test_errors_are_counted_in_sigmas_touched_and_untouched_apart() -> None:
 
 def test_contacts_are_counted_in_standard_deviations() -> None:
     geometry = ArrayGeometry()
-    known = calibration.Calibration(geometry, LIVE, 50.0)
+    known = calibration.Calibration(geometry, LIVE, 50.0, 2.0)
     truth, image = np.zeros((2, 32, 32), dtype=np.float32)
     truth[10:14, 10:14] = 300
     image[10:14, 11:15] = 300
@@ -220,6 +220,16 @@ def test_contacts_are_counted_in_standard_deviations() -> None:
     nothing = calibration.summary(known.errors(0 * image.ravel(), np.full(1024, 2, np.float32), truth.ravel()))
     assert nothing is not None
     assert nothing["x"] == {"ratio": None, "within_1": None, "within_2": None}
+
+
+def test_contacts_err_by_the_noise_that_is_added_as_much_as_they_say(dictionary: Dictionary) -> None:
+    """What exceeds a noise of 2 counts was taken for errors that taxels have in common, as in no node that knows it."""
+    frames = still(2000, [(row, col) for row in range(10, 16) for col in range(20, 26)])
+    raster = SamplingConfig(scheme="raster", m=1024)
+    # All taxels are measured at about one time: their errors are the noise alone.
+    known = scored(dictionary, frames, "acts", sampling=raster, sample_us=0.01, noise_counts=8.0)["sigma"]
+    for name in ("touched", "x", "y", "force"):
+        assert 0.9 < known[name]["ratio"] < 1.1
 
 
 def test_a_method_that_knows_no_sigma_has_no_calibration(dictionary: Dictionary) -> None:

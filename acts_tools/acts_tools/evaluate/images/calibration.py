@@ -38,12 +38,16 @@ class Calibration:
         Only these taxels are scored.
     touch_counts : float
         A taxel above it is pressed.
+    noise_counts : float
+        Standard deviation of a reading, as the recovery of contacts is told it.
     """
 
-    def __init__(self, geometry: ArrayGeometry, live: NDArray[np.bool_], touch_counts: float) -> None:
+    def __init__(
+        self, geometry: ArrayGeometry, live: NDArray[np.bool_], touch_counts: float, noise_counts: float
+    ) -> None:
         self._live = live.ravel()
         self._touch_counts = touch_counts
-        self._finder = ContactFinder(geometry, ForceResponse(), touch_counts)
+        self._finder = ContactFinder(geometry, ForceResponse(), touch_counts, noise_counts)
 
     def errors(
         self, image: NDArray[np.float32], sigma: NDArray[np.float32], truth: NDArray[np.float32]

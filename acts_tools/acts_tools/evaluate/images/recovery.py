@@ -199,6 +199,14 @@ class _Scored:
         }
 
 
+def _skin_of(task: Task) -> SkinSetup:
+    """What is known of the skin: also the noise that is added, as by a calibration."""
+    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
+    skin = SkinSetup(geometry, touch_counts=task.touch_counts)
+    # Without noise of ours nothing is known of the noise in a recording: the method's own setting holds.
+    return replace(skin, noise_counts=task.noise_counts) if task.noise_counts > 0 else skin
+
+
 def method_of(task: Task, dictionary: Dictionary) -> Method:
     """Make the recovery method of a task. It is told the noise that is added, as by a calibration.
 
@@ -207,12 +215,8 @@ def method_of(task: Task, dictionary: Dictionary) -> Method:
     ArrayError
         When patches do not fit the array.
     """
-    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
-    skin = SkinSetup(geometry, touch_counts=task.touch_counts)
-    # Without noise of ours nothing is known of the noise in a recording: the method's own setting holds.
-    if task.noise_counts > 0:
-        skin = replace(skin, noise_counts=task.noise_counts)
-    return method_named(task.method)(skin, dictionary, {"patch_step": task.patch_step, **dict(task.settings)})
+    settings = {"patch_step": task.patch_step, **dict(task.settings)}
+    return method_named(task.method)(_skin_of(task), dictionary, settings)
 
 
 def images(recordings: Iterable[Recording], task: Task) -> int:
@@ -274,8 +278,8 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)
     live = recording.live.ravel()
-    geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
-    known = calibration.Calibration(geometry, live, float(task.touch_counts))
+    skin = _skin_of(task)
+    known = calibration.Calibration(skin.geometry, live, float(task.touch_counts), skin.assumed_noise_counts)
     scores = np.zeros(FRAME_SCORES)
     step = task.sample_us * 1e-6 * recording.rate_hz
     contact_since_s: float | None = None
