@@ -123,7 +123,8 @@ class FramePipeline:
             was_touched = self._baseline.are_above(raw, self._touch_counts)
             change = np.abs(self._baseline.set(counts, valid))
             has_turned = was_touched != self._baseline.are_above(raw, self._touch_counts)
-            if (change > self._touch_counts).any() or (has_turned & (change > _DRIFT_COUNTS)).any():
+            # What drifts is asked first: `touch_counts` may be less.
+            if ((change > _DRIFT_COUNTS) & (has_turned | (change > self._touch_counts))).any():
                 self._is_other_zero = True
             self._noise = noise_counts.copy(), valid.copy()
 

@@ -191,3 +191,21 @@ def test_a_baseline_by_which_a_touch_is_none_forgets_all_frames(
     pipeline.set_baseline(still, still, valid)
     pipeline.step(frame(3, counts), 3_000_000)
     assert len(forgotten) == 2 * are_forgotten
+
+
+@pytest.mark.parametrize("touch_counts", [0, 1])
+def test_a_baseline_that_drifts_forgets_nothing_however_low_the_threshold(touch_counts: int) -> None:
+    """Of a mat without noise each count is a touch: all contacts had new numbers with every baseline, once a second."""
+    settings = ReconstructionSettings(rows=SIDE, cols=SIDE, touch_counts=touch_counts, contacts_hysteresis_counts=0)
+    recovery = FrameRecovery(settings)
+    still, valid = np.zeros(SIDE * SIDE, np.float32), np.ones(SIDE * SIDE, dtype=np.bool_)
+    recovery.set_baseline(still, still, valid)
+    recovery.step(frame(0, 500), 0)
+    numbers = [blob.number for blob in recovery.blobs]
+    for sequence in range(1, 5):
+        recovery.set_baseline(still + np.float32(1.5 * (sequence % 2)), still, valid)
+        recovery.step(frame(sequence, 500), 1_000_000 * sequence)
+        assert [blob.number for blob in recovery.blobs] == numbers
+    recovery.set_baseline(still + np.float32(4.0), still, valid)
+    recovery.step(frame(5, 500), 5_000_000)
+    assert [blob.number for blob in recovery.blobs] != numbers
