@@ -117,6 +117,13 @@ def _readings(blocks: Sequence[_Block]) -> _Readings:
     return _Readings(n, mean, deviation, np.where(n > 0, high - low, 0))
 
 
+def _noise_of(readings: _Readings, still: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """The noise of every taxel; where it has few readings, that of all still taxels together."""
+    freedom = int(np.maximum(readings.n - 1, 0)[still].sum())
+    together = np.sqrt((readings.n * readings.deviation**2)[still].sum() / max(freedom, 1))
+    return np.where(readings.n < _LEAST_READINGS, together, readings.deviation)
+
+
 class BaselineTracker:
     """Baseline of a stream. Frames come on one thread; calibration, tare and questions may come from another.
 
@@ -215,7 +222,7 @@ class BaselineTracker:
             return self._present()
 
     def tare(self) -> Tare:
-        """Tare: set the baseline to the present readings, whatever lies on the skin; noise stays as it is.
+        """Tare: set the baseline to the present readings, whatever lies on the skin; noise that is known stays.
 
         Taxels without a recent reading keep their baseline.
 
@@ -231,11 +238,12 @@ class BaselineTracker:
                 )
             readings = _readings([self._blocks[self._growing], self._blocks[self._growing - 1]])
             measured = readings.n > 0
-            unsteady = self._beside_others(readings.span > self.config.touch_counts)
+            changed = readings.span > self.config.touch_counts
+            unsteady = self._beside_others(changed)
             known = self._freeze >= 0
             self._set(
                 np.where(measured, readings.mean, self._baseline),
-                np.where(known, self._noise, readings.deviation),
+                np.where(known, self._noise, _noise_of(readings, ~changed)),
                 measured | known,
                 BaselineSource.TARE,
             )

@@ -109,6 +109,23 @@ def test_of_a_slow_stream_each_frame_counts() -> None:
         skin.tracker.calibrate()
 
 
+@pytest.mark.parametrize("m", [SIZE, 20])
+def test_a_tare_of_few_readings_takes_no_taxel_for_one_without_noise(m: int) -> None:
+    """Of a board of one frame a second a tare has two readings at most: they may be equal, and one tells no noise."""
+    skin = Skin(noise=6.0, m=m)
+    for second in range(12):
+        skin.field[5, 4] = 900 * (second % 2)  # one that changes says nothing of the others
+        skin.run(0.01)
+        skin.now_ns += 1_000_000_000 - FRAME_NS
+    baseline = skin.tracker.tare().baseline
+    assert baseline.valid.all()
+    assert baseline.noise_counts.min() > 4.0
+    assert baseline.noise_counts.max() < 8.0
+    # As of a calibration it is kept.
+    skin.run(1.5)
+    assert skin.tracker.tare().baseline.noise_counts.tolist() == baseline.noise_counts.tolist()
+
+
 def test_a_clock_that_is_set_back_lets_no_taxel_stay_frozen() -> None:
     skin = Skin()
     skin.run(2.5)
