@@ -18,7 +18,7 @@ def observe(
     block_n: NDArray[np.int64],
     block_sums: NDArray[np.float64],
     block_ends: NDArray[np.int64],
-    baseline: NDArray[np.float32],
+    baseline: NDArray[np.float64],
     freeze_counts: NDArray[np.float32],
     measured_ns: NDArray[np.int64],
     frozen_until_ns: NDArray[np.int64],
@@ -49,4 +49,4 @@ def observe(
         if abs(difference) > freeze_counts[taxel]:
             frozen[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2] = time_ns + hold_ns
         elif time_ns >= frozen_until_ns[taxel]:
-            baseline[taxel] += np.float32(np.clip(since / tau_ns, 0.0, largest_step) * difference)
+            baseline[taxel] += np.clip(since / tau_ns, 0.0, largest_step) * difference

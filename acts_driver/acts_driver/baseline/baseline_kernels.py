@@ -24,7 +24,7 @@ def observe(
     block_n: NDArray[np.int64],
     block_sums: NDArray[np.float64],
     block_ends: NDArray[np.int64],
-    baseline: NDArray[np.float32],
+    baseline: NDArray[np.float64],
     freeze_counts: NDArray[np.float32],
     measured_ns: NDArray[np.int64],
     frozen_until_ns: NDArray[np.int64],
@@ -49,8 +49,8 @@ def observe(
         Their sum and the sum of their squares; raised.
     block_ends : np.ndarray [shape=(n, 2), dtype=int64]
         The smallest and the largest of them; widened.
-    baseline : np.ndarray [shape=(n,), dtype=float32]
-        Followed where it is not frozen [counts].
+    baseline : np.ndarray [shape=(n,), dtype=float64]
+        Followed where it is not frozen [counts]. The steps of a taxel that is measured often are too small for float32.
     freeze_counts : np.ndarray [shape=(n,), dtype=float32]
         A reading farther from the baseline than this freezes it there and at the eight taxels around [counts];
         negative where there is no baseline.
@@ -86,4 +86,4 @@ def observe(
                     frozen_until_ns[r * cols + c] = time_ns + hold_ns
         elif time_ns >= frozen_until_ns[taxel]:
             share = min(max(since_ns / tau_ns, 0.0), largest_step)
-            baseline[taxel] += np.float32(share * difference)
+            baseline[taxel] += share * difference

@@ -151,14 +151,14 @@ class BaselineTracker:
         # Of the blocks: those of a slow board begin with each of its frames.
         self._pace = Pace()
         self._whole = 0
-        self._baseline = np.zeros(size, dtype=np.float32)
+        self._baseline = np.zeros(size)
         self._noise = np.zeros(size, dtype=np.float32)
         self._freeze = np.full(size, -1.0, dtype=np.float32)
         self._measured_ns = np.zeros(size, dtype=np.int64)
         self._frozen_until_ns = np.zeros(size, dtype=np.int64)
         self._source: BaselineSource | None = None
         self._now_ns = 0
-        self._history: deque[tuple[int, NDArray[np.float32]]] = deque(maxlen=_HISTORY_STEPS + 1)
+        self._history: deque[tuple[int, NDArray[np.float64]]] = deque(maxlen=_HISTORY_STEPS + 1)
         # Compiled, or loaded, before the first frame.
         self._update(np.zeros(1, dtype=np.uint16), np.zeros(1, dtype=np.uint16), 0)
         self._blocks[self._growing].clear()
@@ -358,7 +358,7 @@ class BaselineTracker:
     def _present(self) -> Baseline:
         assert self._source is not None
         return Baseline(
-            self._baseline.reshape(self._shape).copy(),
+            self._baseline.astype(np.float32).reshape(self._shape),
             self._noise.reshape(self._shape).copy(),
             (self._freeze >= 0).reshape(self._shape),
             self._source,

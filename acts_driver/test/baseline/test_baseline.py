@@ -221,6 +221,24 @@ def test_drift_is_followed_but_not_where_the_skin_is_touched() -> None:
     assert np.abs(present.counts - 29).max() < 1.5
 
 
+@pytest.mark.parametrize(("counts", "tau_s"), [(700, 600.0), (40, 36_000.0)])
+def test_drift_is_followed_however_often_a_taxel_is_measured(counts: int, tau_s: float) -> None:
+    """At 1 kHz a step was less than half of what tells two numbers of single precision apart: the baseline stayed."""
+    tracker = BaselineTracker(ROWS, COLS, BaselineConfig(tare_s=0.2, tau_s=tau_s))
+    indices = np.arange(SIZE, dtype=np.uint16)
+
+    def run(begin_s: int, seconds: int, reading: int) -> None:
+        frame = SampleFrame(0, 0, 0, Scheme.RASTER, ROWS, COLS, 0, indices, np.full(SIZE, reading, np.uint16))
+        tracker.observe([(frame, 10**9 * begin_s + 10**6 * k) for k in range(1000 * seconds)])
+
+    run(1000, 2, counts)
+    before = tracker.tare().baseline.counts
+    run(1002, 60, counts + 10)
+    after = tracker.present()
+    assert after is not None
+    assert after.counts - before == pytest.approx(10 * (1 - np.exp(-60 / tau_s)), rel=0.02)
+
+
 def test_a_baseline_may_be_told_to_stay() -> None:
     skin = Skin(BaselineConfig(tare_s=0.2, calibration_blocks=5, tau_s=0.0))
     skin.run(2.0)
@@ -248,7 +266,7 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
             np.zeros(size, dtype=np.int64),
         ]
 
-    baseline = rng.uniform(0, 60, size).astype(np.float32)
+    baseline = rng.uniform(0, 60, size)
     freeze = np.where(rng.random(size) < 0.2, -1, 20).astype(np.float32)
     one, other = state(), state()
     for frame in range(6):
