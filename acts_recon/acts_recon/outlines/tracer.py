@@ -245,7 +245,11 @@ class OutlineTracer:
         from scipy import ndimage
 
         pressed = image > self._touch_counts
-        self._known = ndimage.maximum_filter(pressed, size=2 * _BESIDE + 1)
+        self._known[:] = False
+        for first_row, end_row, first_col, end_col in self._rectangles:
+            there = np.s_[first_row:end_row, first_col:end_col]
+            if pressed[there].any():
+                self._known[there] = ndimage.maximum_filter(pressed[there], size=2 * _BESIDE + 1)
         return self._borders.labelled(pressed)
 
     def _match(self, labels: NDArray[np.intp], number: int, time_s: float) -> list[tuple[int, _Track]]:

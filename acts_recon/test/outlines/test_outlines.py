@@ -203,6 +203,21 @@ def test_no_frame_is_skipped_while_a_contact_is_too_small_for_an_edge_but_young(
     assert tracer.skip(20.06, begun.astype(np.float32))
 
 
+def test_no_frame_is_skipped_in_which_the_patch_beside_an_old_contact_is_touched() -> None:
+    """Beside it lay a finger of its own, whose touch was taken for a part of the contact until the next look."""
+    glove = layout("glove", 32, 32)
+    tracer = OutlineTracer(glove.geometry(), RESPONSE, 40.0, 2.0, layout=glove)
+    image = np.zeros((32, 32), dtype=np.float32)
+    image[6:10, 4:8] = 300
+    for end_s in (1.0, 1.1):
+        tracer.step(ALL, glove.matrix(image).ravel().astype(np.uint16), end_s, 1e-6, image)
+    wider = image.copy()
+    wider[5, 4:8] = 300
+    assert tracer.skip(1.101, wider)
+    image[6:10, 8:10] = 300
+    assert not tracer.skip(1.102, image)
+
+
 def test_no_outline_reaches_over_a_border() -> None:
     glove = layout("glove", 32, 32)
     geometry = glove.geometry()
