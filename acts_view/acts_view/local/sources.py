@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
@@ -12,9 +13,11 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+import numpy as np
+
 from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
-from acts_core.runtime import Pace
+from acts_core.runtime import NS_PER_S, Pace
 from acts_core.sampling import SamplingConfig
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineTracker
@@ -42,6 +45,9 @@ _FULL_M = 220
 _TRACKED_COUNTS = 30
 # Older frames do not show the present skin [s]; as of the driver.
 _FRESH_S = 0.5
+# How often the baseline is looked at, and from which change on it is subtracted anew; as of the driver.
+_DRIFT_PERIOD_NS = NS_PER_S
+_MOVED_COUNTS = 0.5
 _RECORD_BYTES_MAX = int(1e6 * ViewSettings.record_max_mb)
 
 
@@ -234,6 +240,10 @@ class BoardSource:
         self._told_s = -_DIAGNOSTICS_PERIOD_S
         self._pace = Pace()
         self._feed: BoardFeed | None = None
+        # A tare comes on another thread than frames.
+        self._subtracting = threading.Lock()
+        self._subtracted: Baseline | None = None
+        self._followed_ns = 0
         self._recording = (
             None if record_dir is None else Recording(record_dir, _RECORD_BYTES_MAX, lambda: [name], self._begin, log)
         )
@@ -284,13 +294,25 @@ class BoardSource:
             since = "yet" if heard_s is None else f"for {now_s - heard_s:.1f} s"
             raise ViewRequestError(f"no frames {since}: the line of the driver tells why; tare when they are back")
         try:
-            tare = self._tracker.tare()
+            with self._subtracting:
+                tare = self._tracker.tare()
+                self._subtract(tare.baseline)
         except ActsError as error:
             raise ViewRequestError(str(error)) from error
-        self.skin.set_baseline(tare.baseline)
-        if self._feed is not None:
-            self._feed.set_baseline(tare.baseline)
         return str(tare)
+
+    def _follow_drift(self) -> None:
+        with self._subtracting:
+            present, before = self._tracker.present(), self._subtracted
+            if present is None or before is None or np.abs(present.counts - before.counts).max() < _MOVED_COUNTS:
+                return
+            self._subtract(present)
+
+    def _subtract(self, baseline: Baseline) -> None:
+        self._subtracted = baseline
+        self.skin.set_baseline(baseline)
+        if self._feed is not None:
+            self._feed.set_baseline(baseline)
 
     def _begin(self, _skins: Sequence[str], bag: BoundedBag) -> Feed:
         # Imported here, because it is slow to import and few record.
@@ -304,6 +326,9 @@ class BoardSource:
         if frames:
             self._pace.step(time.monotonic(), len(frames))
         self._tracker.observe(frames)
+        if frames and abs(frames[-1][1] - self._followed_ns) >= _DRIFT_PERIOD_NS:
+            self._followed_ns = frames[-1][1]
+            self._follow_drift()
         self.skin.take(frames, time.time_ns())
         feed = self._feed
         if feed is not None:

@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 import itertools
+import os
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -20,6 +22,7 @@ from waiting import wait_for
 
 from acts_core.frames import SampleFrame, Scheme
 from acts_driver.replay import ReplayOptions, open_recording
+from acts_driver.settings import DriverSettings
 from acts_msgs.msg import TactileSamples
 from acts_recon.settings import ReconstructionSettings
 from acts_ros.bags.message_types import Definitions
@@ -27,9 +30,11 @@ from acts_ros.bags.writing import BagWriter
 from acts_view.local import playback as playback_module
 from acts_view.local.local_skin import LocalSkin
 from acts_view.local.playback import Playback, PlaybackState
-from acts_view.local.sources import RecordedSource, open_recorded
+from acts_view.local.sources import BoardSource, RecordedSource, open_recorded
 
 pytestmark = pytest.mark.slow
+
+SIDE = 8
 
 
 @pytest.fixture
@@ -298,3 +303,44 @@ def test_a_page_holds_a_recording_and_others_see_it(tmp_path: Path) -> None:
             assert seen["skins"] == ["/press"]
     finally:
         shown.close()
+
+
+def test_what_a_tared_board_reads_untouched_is_followed_as_it_drifts() -> None:
+    """The picture was less what was read at the tare, for hours, though a recording had what is read now."""
+    far, near = os.openpty()
+    driver = DriverSettings(port=os.ttyname(near), protocol="raster_ascii", rows=SIDE, cols=SIDE, baseline_tau_s=2.0)
+    source = BoardSource("/board", driver, "square", lambda level, words: None)
+    indices, numbers = np.arange(SIDE * SIDE, dtype=np.uint16), itertools.count()
+
+    def read(seconds: float, counts: int) -> int:
+        """What the picture shows at the end."""
+        for _ in range(round(100 * seconds)):
+            number = next(numbers)
+            readings = np.full(indices.size, counts, dtype=np.uint16)
+            one = SampleFrame(number, 10_000 * number, 900, Scheme.RASTER, SIDE, SIDE, 0, indices, readings)
+            source._take([(one, 10_000_000 * (200 + number))], None)
+        newest = source.skin.newest()
+        assert newest is not None
+        assert newest[0].image is not None
+        return int(newest[0].image.max())
+
+    try:
+        assert read(1.0, 40) == 40
+        source._tare()
+        assert read(0.5, 40) == 0
+        written: list[float] = []
+        feed = SimpleNamespace(
+            take=lambda frames: None, set_baseline=lambda baseline: written.append(float(baseline.counts.max()))
+        )
+        source._feed = cast(Any, feed)
+        read(20.0, 55)
+        assert read(5.0, 70) <= 5
+        assert written == sorted(written)
+        assert written[-1] == pytest.approx(70, abs=5)
+        # What is quicker is a touch.
+        assert read(5.0, 200) >= 130
+        assert written[-1] < 71
+    finally:
+        source.stop()
+        os.close(near)
+        os.close(far)
