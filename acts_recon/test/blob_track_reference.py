@@ -207,14 +207,15 @@ class BlobTrackerReference:
             parts = len(covering) >= 2 and len(guests) > 0
             at = self._own_part(track) if parts else track.position
             reach = FASTEST_M_S * min(time_s - track.seen_s, self._config.bridge_s)
-            gate = GATE_TAXELS * pitch + min(3 * math.sqrt(track.position_var.max()), reach)
+            further = min(3 * math.sqrt(track.position_var.max()), reach)
             for b, blob in enumerate(blobs):
                 if blob.patch != track.patch:
                     continue
-                distance = math.hypot(blob.x_m - at[0], blob.y_m - at[1])
+                away = np.array([blob.x_m, blob.y_m]) - at
+                distance, taxels = math.hypot(*away), math.hypot(*(away / self._pitch))
                 if b in covering:
                     pairs.append((distance, track.number, b, track))
-                elif distance < gate:
+                elif taxels < GATE_TAXELS or distance * (1 - GATE_TAXELS / taxels) < further:
                     pairs.append((distance + pitch, track.number, b, track))
             if not parts:
                 continue

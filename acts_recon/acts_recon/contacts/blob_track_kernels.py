@@ -145,7 +145,6 @@ def follow(
         Contacts written: `n`.
     """
     tracks, owner, overlap, track_of = memory.tracks, memory.owner, memory.overlap, memory.track_of
-    pitch = math.sqrt(pitch_m * pitch_y_m)
     predict(time_s, dt_s, bridge_s, memory_s, tracks)
     for b in range(n):
         track_of[b] = NONE
@@ -154,7 +153,7 @@ def follow(
         for i in range(blobs[b].first, blobs[b].last):
             if owner[members[i]] >= 0:
                 overlap[b, owner[members[i]]] += 1
-    _weigh(time_s, bridge_s, n, blobs, pitch, tracks, overlap, memory.cost)
+    _weigh(time_s, bridge_s, n, blobs, pitch_m, pitch_y_m, tracks, overlap, memory.cost)
     _assign(n, tracks, memory.cost, track_of)
     _prefer_the_stronger(n, blobs, tracks, overlap, track_of)
     part(tracks)
@@ -187,12 +186,14 @@ def _weigh(
     bridge_s: float,
     n: int,
     blobs: NDArray[Any],
-    pitch: float,
+    pitch_m: float,
+    pitch_y_m: float,
     tracks: NDArray[Any],
     overlap: NDArray[np.int32],
     cost: NDArray[np.float64],
 ) -> None:
     """Cost of every pair of contact and track: their distance, infinite where they cannot belong together."""
+    pitch = math.sqrt(pitch_m * pitch_y_m)
     for b in range(n):
         for t in range(MAX_TRACKS):
             cost[b, t] = math.inf
@@ -209,14 +210,17 @@ def _weigh(
         if parts:
             x, y = own_part(t, tracks)
         reach = FASTEST_M_S * min(time_s - track.seen_s, bridge_s)
-        gate = GATE_TAXELS * pitch + min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
+        further = min(3.0 * math.sqrt(max(track.x_pp, track.y_pp)), reach)
         for b in range(n):
             if blobs[b].patch != track.patch:
                 continue
-            distance = math.hypot(blobs[b].x_m - x, blobs[b].y_m - y)
+            dx, dy = blobs[b].x_m - x, blobs[b].y_m - y
+            distance = math.hypot(dx, dy)
+            # Rows may be farther apart than columns.
+            taxels = math.hypot(dx / pitch_m, dy / pitch_y_m)
             if overlap[b, t] > 0:
                 cost[b, t] = distance
-            elif distance < gate:
+            elif taxels < GATE_TAXELS or distance * (1.0 - GATE_TAXELS / taxels) < further:
                 cost[b, t] = distance + pitch
         if not parts:
             continue

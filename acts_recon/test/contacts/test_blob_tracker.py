@@ -98,6 +98,25 @@ def test_rounding_gives_no_direction(shared_tracker: BlobTracker, row: int, col:
     assert blob.active_taxels > 1 or blob.spread_m == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.parametrize(("pitch_m", "row_pitch_m"), [(0.005, 0.005), (0.002, 0.008), (0.012, 0.003)])
+@pytest.mark.parametrize(("down", "right"), [(0, 1), (1, 0), (1, 1), (-1, 1)])
+def test_a_tip_goes_on_to_the_next_taxel_however_far_rows_and_columns_are_apart(
+    pitch_m: float, row_pitch_m: float, down: int, right: int
+) -> None:
+    """Where columns lay four times as far apart as rows it had a new number at each of them."""
+    tracker = BlobTracker(ArrayGeometry(32, 32, pitch_m, row_pitch_m), RESPONSE)
+    found = []
+    for frame in range(100):
+        image = np.zeros((32, 32), dtype=np.float32)
+        image[16 + down * (frame // 20), 8 + right * (frame // 20)] = 500
+        found.append(numbers(tracker.step(image, frame * FRAME_S, np.full_like(image, 2))))
+    assert found == [[1]] * 100
+    # Two taxels farther along each axis it is another one.
+    image = np.zeros((32, 32), dtype=np.float32)
+    image[16 + 7 * down, 8 + 7 * right] = 500
+    assert numbers(tracker.step(image, 100 * FRAME_S, np.full_like(image, 2))) == [2]
+
+
 @settings(max_examples=40, deadline=None)
 @given(
     st.floats(0, 2),
