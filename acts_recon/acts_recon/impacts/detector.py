@@ -20,7 +20,7 @@ from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_recon.impacts.onset_fit import follow_back, follow_back_impact
 from acts_recon.impacts.samples import RecentSamples
-from acts_recon.impacts.touch import Force, Touch, impulse_of, reach_m_of
+from acts_recon.impacts.touch import Force, Touch, impulse_of, lies_along, reach_m_of
 
 Array = NDArray[np.float64]
 
@@ -199,20 +199,26 @@ class ImpactDetector:
                 # The image goes on showing what was measured before: that is no new touch.
                 self._touches.remove(touch)
         # After those that are no touch have gone: none joins one of them.
-        return self._joined(parts, time_s) + begun
+        return self._joined(parts, time_s, image) + begun
 
-    def _joined(self, parts: dict[int, list[TrackedBlob]], time_s: float) -> list[Impact]:
+    def _joined(self, parts: dict[int, list[TrackedBlob]], time_s: float, image: NDArray[np.float32]) -> list[Impact]:
         """Tell of touches whose contacts have grown into that of another, and forget them."""
         told = []
         for touch in [one for one in self._touches if one.number not in parts]:
             for other in self._touches:
                 blobs = parts.get(other.number, [])
-                if other.patch == touch.patch and any(_covers(blob, touch.x_m, touch.y_m) for blob in blobs):
+                if other.patch == touch.patch and any(self._has_taken(blob, touch, image) for blob in blobs):
                     self._touches.remove(touch)
                     if not touch.is_told:
                         told.append(self._so_far(touch, joined=other.number, until_s=time_s))
                     break
         return told
+
+    def _has_taken(self, blob: TrackedBlob, touch: Touch, image: NDArray[np.float32]) -> bool:
+        """Whether a contact lies where a touch was."""
+        if _covers(blob, touch.x_m, touch.y_m):
+            return True
+        return lies_along(blob, touch.x_m, touch.y_m) and self._is_pressed_at(touch, image)
 
     def _is_felt(self, touch: Touch, blobs: list[TrackedBlob], time_s: float, is_sampled: bool) -> bool:
         """Whether this frame's own samples show the touch, or say nothing of it."""
@@ -300,10 +306,7 @@ class ImpactDetector:
 
     def _whole_of(self, touch: Touch, image: NDArray[np.float32]) -> Touch | None:
         """The touch that one which is not felt any more has become a part of: the skin there is still pressed."""
-        row, col = self._place(touch.x_m, touch.y_m)
-        top, bottom, left, right = self._borders.rectangles[touch.patch].tolist()
-        around = image[max(row - 1, top) : min(row + 2, bottom), max(col - 1, left) : min(col + 2, right)]
-        if around.max() <= self._touch_counts:
+        if not self._is_pressed_at(touch, image):
             return None
         others = (
             other
@@ -313,6 +316,12 @@ class ImpactDetector:
             and math.dist((other.x_m, other.y_m), (touch.x_m, touch.y_m)) <= self._reach_m(other)
         )
         return max(others, key=lambda other: other.last_s, default=None)
+
+    def _is_pressed_at(self, touch: Touch, image: NDArray[np.float32]) -> bool:
+        row, col = self._place(touch.x_m, touch.y_m)
+        top, bottom, left, right = self._borders.rectangles[touch.patch].tolist()
+        around = image[max(row - 1, top) : min(row + 2, bottom), max(col - 1, left) : min(col + 2, right)]
+        return bool(around.max() > self._touch_counts)
 
     def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
         """What a touch was that is over, or an impact that stays on the skin."""

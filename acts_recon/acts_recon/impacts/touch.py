@@ -38,6 +38,17 @@ def reach_m_of(blob: TrackedBlob) -> float:
     return 1.3 * math.sqrt(blob.area_m2 / math.pi)
 
 
+def lies_along(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
+    """Whether a place lies on a contact that is long: a rectangle of its area, spread and direction, twice as wide."""
+    square_m2 = 12 * blob.spread_m**2
+    both_m = math.sqrt(square_m2 + 2 * blob.area_m2)
+    apart_m = math.sqrt(max(square_m2 - 2 * blob.area_m2, 0.0))
+    dx_m, dy_m = x_m - blob.x_m, y_m - blob.y_m
+    cos, sin = math.cos(blob.angle_rad), math.sin(blob.angle_rad)
+    along_m, across_m = abs(dx_m * cos + dy_m * sin), abs(dy_m * cos - dx_m * sin)
+    return along_m <= (both_m + apart_m) / 4 and across_m <= (both_m - apart_m) / 2
+
+
 class Touch:
     """A touch from its first frame on.
 

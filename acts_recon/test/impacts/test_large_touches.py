@@ -46,3 +46,22 @@ def test_heel_and_toes_are_one_touch_on_an_insole_alone() -> None:
     heel_and_toes = {(2, 10, 3, 12): (50, 200), (22, 30, 3, 12): (60, 190)}
     assert [one.is_over for one in told_of_images("insole", heel_and_toes)] == [False, True]
     assert [one.is_over for one in told_of_images("arm", heel_and_toes)] == [False, False, True, True]
+
+
+@pytest.mark.parametrize("rows", [(15, 16), (14, 17)])
+@pytest.mark.parametrize("cols", [(2, 22), (3, 31)])
+def test_an_edge_that_touches_at_its_ends_first_is_one_touch(rows: tuple[int, int], cols: tuple[int, int]) -> None:
+    """A long contact reaches as far as it is long: its ends were told to be over as taps while it pressed there."""
+    left, right = (*rows, cols[0], cols[0] + 8), (*rows, cols[1] - 8, cols[1])
+    told = told_of_images("square", {left: (50, 200), right: (50, 200), (*rows, *cols): (60, 200)})
+    (over,) = [one for one in told if one.is_over]
+    assert over.duration_s == pytest.approx(0.14, abs=0.012)
+    joined = [one for one in told if one.joined]
+    assert {one.joined for one in joined} == {over.number}
+    assert {one.number for one in told} == {over.number, *(one.number for one in joined)}
+
+
+@pytest.mark.parametrize("row", [8, 12])
+def test_a_tap_beside_an_edge_is_over_by_itself(row: int) -> None:
+    told = told_of_images("square", {(20, 22, 2, 30): (50, 200), (row, row + 2, 2, 4): (60, 70)})
+    assert [(one.is_over, one.joined) for one in told if one.number == 2] == [(False, 0), (True, 0)]
