@@ -20,7 +20,7 @@ from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_recon.impacts.onset_fit import follow_back, follow_back_impact
 from acts_recon.impacts.samples import RecentSamples
-from acts_recon.impacts.touch import Force, Touch, impulse_of, lies_along, reach_m_of
+from acts_recon.impacts.touch import Force, Touch, area_of, impulse_of, lies_along, reach_m_of
 
 Array = NDArray[np.float64]
 
@@ -32,13 +32,6 @@ _NUMBERS = 2**32
 
 def _covers(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
     return math.hypot(blob.x_m - x_m, blob.y_m - y_m) <= reach_m_of(blob)
-
-
-def _whole(blobs: list[TrackedBlob]) -> tuple[float, float, float]:
-    """Centre of the strongest of these contacts, which is the first, and how far they all reach from it [m]."""
-    strongest = blobs[0]
-    reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
-    return strongest.x_m, strongest.y_m, reach_m
 
 
 def _with_direction(impact: Impact, fitted: Footprint) -> Impact:
@@ -191,7 +184,7 @@ class ImpactDetector:
                 is_first = not len(touch.rows)
                 touch.add(time_s, blobs, image, self.config)
                 if is_first:
-                    if not is_sampled or self._samples.has_come(*_whole(blobs), touch.patch):
+                    if not is_sampled or self._samples.has_come(area_of(blobs), touch.patch):
                         begun.append(self._so_far(touch))
                     else:
                         touch.is_told = True  # all there is to tell: nothing
@@ -227,7 +220,7 @@ class ImpactDetector:
             return True
         # What bounces is gone before many of its taxels were measured: there each free sample counts.
         is_short = time_s - touch.began_s <= self.config.impact_longest_s
-        pressed_s, is_left = self._samples.near(*_whole(blobs), touch.patch, None if is_short else self._shown)
+        pressed_s, is_left = self._samples.near(area_of(blobs), touch.patch, None if is_short else self._shown)
         if pressed_s.size:
             touch.see(pressed_s)
         # Where a frame has measured nothing that speaks against it, it says nothing; but not for long.
@@ -247,7 +240,10 @@ class ImpactDetector:
         nearest, nearest_m = None, math.inf
         for touch in self._touches:
             distance_m = math.hypot(blob.x_m - touch.x_m, blob.y_m - touch.y_m)
-            if touch.patch == patch and distance_m <= self._reach_m(touch) and distance_m < nearest_m:
+            is_there = distance_m <= self._reach_m(touch)
+            # Of a long contact a piece may lie far from its centre.
+            is_there = is_there or (touch.area is not None and bool(touch.area.holds(blob.x_m, blob.y_m)))
+            if touch.patch == patch and is_there and distance_m < nearest_m:
                 nearest, nearest_m = touch, distance_m
         return nearest
 

@@ -15,6 +15,7 @@ from acts_core.skin import Response, force_table
 from acts_recon.images import Borders, borders_of, slope_table
 from acts_recon.impacts.footprint_fit import Footprint, fit_footprint
 from acts_recon.impacts.onset_fit import Rise
+from acts_recon.impacts.touch import Area
 
 Array = NDArray[np.float64]
 
@@ -114,27 +115,25 @@ class RecentSamples:
         while self._frames[0][0] < time_s - self._memory_s or self._kept > _MOST_SAMPLES:
             self._kept -= _FRAME_SAMPLES + self._frames.popleft()[2].size
 
-    def near(
-        self, x_m: float, y_m: float, reach_m: float, patch: int, shown: NDArray[np.bool_] | None = None
-    ) -> tuple[Array, bool]:
-        """When samples of the newest frame near a place were measured pressed [s], and whether others were free.
+    def near(self, area: Area, patch: int, shown: NDArray[np.bool_] | None = None) -> tuple[Array, bool]:
+        """When samples of the newest frame in an area were measured pressed [s], and whether others were free.
 
         Parameters
         ----------
-        x_m, y_m, reach_m : float
+        area : Area
         patch : int
         shown : np.ndarray [shape=(size,), dtype=bool], optional
             Which taxels an earlier image shows pressed: others do not count as free. Around a contact that stays, there
             are taxels that are never pressed.
         """
         _, time_s, taxel, counts = self._frames[-1]
-        near = self._lies_near(taxel, x_m, y_m, reach_m, patch)
+        near = area.holds(self._x_m[taxel], self._y_m[taxel]) & (self._patch_of[taxel] == patch)
         pressed = counts > self._touch_counts
         free = near & ~pressed if shown is None else near & ~pressed & shown[taxel]
         return time_s[near & pressed], bool(free.any())
 
-    def has_come(self, x_m: float, y_m: float, reach_m: float, patch: int) -> bool:
-        """Whether what presses near a place in the newest frame has come since the last reset.
+    def has_come(self, area: Area, patch: int) -> bool:
+        """Whether what presses in an area in the newest frame has come since the last reset.
 
         So it is where a taxel there reads more than before, and in the end anywhere: what was there would have been
         found. Until then nobody knows of a taxel that was not measured before.
@@ -146,7 +145,8 @@ class RecentSamples:
         # At the edge of what rests, noise alone goes up and down through the threshold.
         rise = min(_RISE_NOISES * self._noise_counts, _RISE_SHARE * self._touch_counts)
         risen = (least <= self._touch_counts) & (counts - least >= rise)
-        return bool((risen & self._lies_near(taxel, x_m, y_m, reach_m, patch)).any())
+        is_near = area.holds(self._x_m[taxel], self._y_m[taxel]) & (self._patch_of[taxel] == patch)
+        return bool((risen & is_near).any())
 
     def _lies_near(
         self, taxel: NDArray[np.intp] | slice, x_m: float, y_m: float, reach_m: float, patch: int

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +25,14 @@ _FRAMES = 512
 # A force that stands still at its largest for most of the time is held: nothing that flies does that.
 _HELD_SHARE, _HELD_TIME, _HELD_S = 0.8, 0.7, 0.015
 _FALLEN_SHARE = 0.5
+# A contact so many times as long as wide is a long one; in the image of a few samples a round one may be twice.
+_LONG = 4.0
 # Hertz: the force of what meets the skin at a steady speed grows with time to this power.
 _RISE_POWER = 1.5
 
 _TIME, _FORCE, _X, _Y = range(4)
+
+Places = TypeVar("Places", float, NDArray[np.float64])
 
 Force = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Times and forces [s, N]."""
@@ -38,15 +43,52 @@ def reach_m_of(blob: TrackedBlob) -> float:
     return 1.3 * math.sqrt(blob.area_m2 / math.pi)
 
 
-def lies_along(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
-    """Whether a place lies on a contact that is long: a rectangle of its area, spread and direction, twice as wide."""
+def _sides_m(blob: TrackedBlob) -> tuple[float, float]:
+    """Length and width of the rectangle of a contact's area and spread; where it is round, those of a square [m]."""
     square_m2 = 12 * blob.spread_m**2
     both_m = math.sqrt(square_m2 + 2 * blob.area_m2)
     apart_m = math.sqrt(max(square_m2 - 2 * blob.area_m2, 0.0))
-    dx_m, dy_m = x_m - blob.x_m, y_m - blob.y_m
-    cos, sin = math.cos(blob.angle_rad), math.sin(blob.angle_rad)
-    along_m, across_m = abs(dx_m * cos + dy_m * sin), abs(dy_m * cos - dx_m * sin)
-    return along_m <= (both_m + apart_m) / 4 and across_m <= (both_m - apart_m) / 2
+    return (both_m + apart_m) / 2, (both_m - apart_m) / 2
+
+
+def lies_along(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
+    """Whether a place lies on a contact that is long: a rectangle of its area, spread and direction, twice as wide."""
+    length_m, width_m = _sides_m(blob)
+    along_m, across_m = turned(x_m - blob.x_m, y_m - blob.y_m, blob.angle_rad)
+    return bool(abs(along_m) <= length_m / 2 and abs(across_m) <= width_m)
+
+
+def turned(x: Places, y: Places, angle_rad: float) -> tuple[Places, Places]:
+    """Parts of a vector along a direction, and across it."""
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    return x * cos + y * sin, y * cos - x * sin
+
+
+class Area(NamedTuple):
+    """Where contacts lie: an ellipse about a place, its half axes [m], and the direction of the first of them [rad]."""
+
+    x_m: float
+    y_m: float
+    along_m: float
+    across_m: float
+    angle_rad: float = 0.0
+
+    def holds(self, x_m: Places, y_m: Places) -> NDArray[np.bool_]:
+        """Which places lie in it."""
+        along_m, across_m = turned(x_m - self.x_m, y_m - self.y_m, self.angle_rad)
+        is_in: NDArray[np.bool_] = np.hypot(along_m / self.along_m, across_m / self.across_m) <= 1.0
+        return is_in
+
+
+def area_of(blobs: list[TrackedBlob]) -> Area:
+    """Of one that is long an ellipse, as long for its width; else a disc around the first, which is the strongest."""
+    strongest = blobs[0]
+    length_m, width_m = _sides_m(strongest)
+    if len(blobs) == 1 and length_m > _LONG * width_m:
+        longer, reach_m = math.sqrt(length_m / width_m), reach_m_of(strongest)
+        return Area(strongest.x_m, strongest.y_m, reach_m * longer, reach_m / longer, strongest.angle_rad)
+    reach_m = max(math.hypot(b.x_m - strongest.x_m, b.y_m - strongest.y_m) + reach_m_of(b) for b in blobs)
+    return Area(strongest.x_m, strongest.y_m, reach_m, reach_m)
 
 
 class Touch:
@@ -73,6 +115,7 @@ class Touch:
         self.x_m = self.y_m = 0.0
         self.start_m = 0.0, 0.0
         self.reach_m = self.most_reach_m = 0.0
+        self.area: Area | None = None
         self.most_area_m2 = 0.0
         self.way_m = 0.0
         self.spread_m = 0.0
@@ -108,6 +151,7 @@ class Touch:
             self.start_m = x_m, y_m
         self.reach_m = max(math.hypot(b.x_m - x_m, b.y_m - y_m) + reach_m_of(b) for b in blobs)
         self.most_reach_m = max(self.most_reach_m, self.reach_m)
+        self.area = area_of(blobs)
         self.most_area_m2 = max(self.most_area_m2, sum(blob.area_m2 for blob in blobs))
         if force_n > self.peak_n:
             self.peak_n, self.peak_sd_n, self.peak_s = force_n, sd_n, time_s

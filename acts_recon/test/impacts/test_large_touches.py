@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from acts_recon.impacts import Impact, Kind
+from acts_core.array import ArrayGeometry
+from acts_recon.impacts import Impact, ImpactDetector, Kind
 from acts_recon.settings import ReconstructionSettings
 
 
@@ -65,3 +66,27 @@ def test_an_edge_that_touches_at_its_ends_first_is_one_touch(rows: tuple[int, in
 def test_a_tap_beside_an_edge_is_over_by_itself(row: int) -> None:
     told = told_of_images("square", {(20, 22, 2, 30): (50, 200), (row, row + 2, 2, 4): (60, 70)})
     assert [(one.is_over, one.joined) for one in told if one.number == 2] == [(False, 0), (True, 0)]
+
+
+@pytest.mark.parametrize("long_rows", [False, True])
+@pytest.mark.parametrize("length", [12, 26])
+def test_an_edge_that_rests_is_over_once_where_frames_measure_a_grid_that_moves(long_rows: bool, length: int) -> None:
+    """Taxels beside it, within a disc of its area, were taken for its own: free ones ended it again and again."""
+    rows, cols = np.indices((32, 32))
+    bar = np.zeros((32, 32), dtype=np.float32)
+    bar[17, 3 : 3 + length] = 400
+    detector = ImpactDetector(ArrayGeometry())
+    measured, age_s = np.zeros((32, 32), dtype=np.float32), np.full((32, 32), np.inf, dtype=np.float32)
+    told: list[Impact] = []
+    period_s = 1.1e-3
+    for number in range(600):
+        pressed = bar if 150 <= number < 500 else np.zeros_like(bar)
+        now = (rows % 4 == number // 4 % 4) & (cols % 4 == number % 4)
+        age_s += np.float32(period_s)
+        age_s[now], measured[now] = period_s / 2, pressed[now]
+        # As the image is recovered: whole, as soon as a taxel of it has been measured, and until it is found free.
+        image = bar if measured.any() else np.zeros_like(bar)
+        fields = (one.T.copy() if long_rows else one for one in (image, np.full_like(image, 2), age_s, measured))
+        told += detector.step(10.0 + number * period_s, period_s, *fields)
+    assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.PRESS)]
+    assert told[1].duration_s == pytest.approx(350 * period_s, abs=0.02)
