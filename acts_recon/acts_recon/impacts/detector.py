@@ -218,9 +218,11 @@ class ImpactDetector:
         if not is_sampled:
             touch.see(np.array([time_s]))
             return True
-        # What bounces is gone before many of its taxels were measured: there each free sample counts.
-        is_short = time_s - touch.began_s <= self.config.impact_longest_s
-        pressed_s, is_left = self._samples.near(area_of(blobs), touch.patch, None if is_short else self._shown)
+        # What bounces is gone before many of its taxels were measured: there each free sample counts. But not about a
+        # long one, which need not be straight.
+        area = area_of(blobs)
+        is_short = time_s - touch.began_s <= self.config.impact_longest_s and not area.is_long
+        pressed_s, is_left = self._samples.near(area, touch.patch, None if is_short else self._shown)
         if pressed_s.size:
             touch.see(pressed_s)
         # Where a frame has measured nothing that speaks against it, it says nothing; but not for long.

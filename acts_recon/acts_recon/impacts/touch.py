@@ -73,6 +73,11 @@ class Area(NamedTuple):
     across_m: float
     angle_rad: float = 0.0
 
+    @property
+    def is_long(self) -> bool:
+        """Whether it is no disc."""
+        return self.along_m > self.across_m
+
     def holds(self, x_m: Places, y_m: Places) -> NDArray[np.bool_]:
         """Which places lie in it."""
         along_m, across_m = turned(x_m - self.x_m, y_m - self.y_m, self.angle_rad)

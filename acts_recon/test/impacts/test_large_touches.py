@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_recon.impacts import Impact, ImpactDetector, Kind
 from acts_recon.settings import ReconstructionSettings
+
+PERIOD_S = 1.1e-3
 
 
 def told_of_images(name: str, pressed: dict[tuple[int, int, int, int], tuple[int, int]], **own: float) -> list[Impact]:
@@ -68,25 +71,44 @@ def test_a_tap_beside_an_edge_is_over_by_itself(row: int) -> None:
     assert [(one.is_over, one.joined) for one in told if one.number == 2] == [(False, 0), (True, 0)]
 
 
-@pytest.mark.parametrize("long_rows", [False, True])
-@pytest.mark.parametrize("length", [12, 26])
-def test_an_edge_that_rests_is_over_once_where_frames_measure_a_grid_that_moves(long_rows: bool, length: int) -> None:
-    """Taxels beside it, within a disc of its area, were taken for its own: free ones ended it again and again."""
-    rows, cols = np.indices((32, 32))
-    bar = np.zeros((32, 32), dtype=np.float32)
-    bar[17, 3 : 3 + length] = 400
-    detector = ImpactDetector(ArrayGeometry())
-    measured, age_s = np.zeros((32, 32), dtype=np.float32), np.full((32, 32), np.inf, dtype=np.float32)
+def told_of_grid(shape: NDArray[np.bool_], frames: int) -> list[Impact]:
+    """What is told of a shape that presses for so many frames of 1.1 ms, each of which measures a grid that moves."""
+    rows, cols = np.indices(shape.shape)
+    counts, nothing = np.where(shape, np.float32(400), np.float32(0)), np.zeros(shape.shape, dtype=np.float32)
+    detector = ImpactDetector(ArrayGeometry(*shape.shape))
+    measured, age_s = nothing.copy(), np.full_like(nothing, np.inf)
     told: list[Impact] = []
-    period_s = 1.1e-3
-    for number in range(600):
-        pressed = bar if 150 <= number < 500 else np.zeros_like(bar)
+    for number in range(frames + 250):
+        pressed = counts if 150 <= number < 150 + frames else nothing
         now = (rows % 4 == number // 4 % 4) & (cols % 4 == number % 4)
-        age_s += np.float32(period_s)
-        age_s[now], measured[now] = period_s / 2, pressed[now]
+        age_s += np.float32(PERIOD_S)
+        age_s[now], measured[now] = PERIOD_S / 2, pressed[now]
         # As the image is recovered: whole, as soon as a taxel of it has been measured, and until it is found free.
-        image = bar if measured.any() else np.zeros_like(bar)
-        fields = (one.T.copy() if long_rows else one for one in (image, np.full_like(image, 2), age_s, measured))
-        told += detector.step(10.0 + number * period_s, period_s, *fields)
+        image = counts if measured.any() else nothing
+        told += detector.step(10.0 + number * PERIOD_S, PERIOD_S, image, np.full_like(image, 2), age_s, measured)
+    return told
+
+
+def shaped(name: str) -> NDArray[np.bool_]:
+    shape = np.zeros((32, 32), dtype=bool)
+    shape[17, 3 : 15 if name == "short edge" else 29] = True
+    shape[3:17, 3] = name == "corner"
+    return shape.T.copy() if name == "upright edge" else shape
+
+
+SHAPES = ("short edge", "edge", "upright edge", "corner")
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_an_edge_that_rests_is_over_once_where_frames_measure_a_grid_that_moves(name: str) -> None:
+    """Taxels beside it, within a disc of its area, were taken for its own: free ones ended it again and again."""
+    told = told_of_grid(shaped(name), 350)
     assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.PRESS)]
-    assert told[1].duration_s == pytest.approx(350 * period_s, abs=0.02)
+    assert told[1].duration_s == pytest.approx(350 * PERIOD_S, abs=0.02)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_an_edge_that_knocks_is_over_soon(name: str) -> None:
+    told = told_of_grid(shaped(name), 12)
+    assert [(one.is_over, one.kind) for one in told] == [(False, Kind.UNKNOWN), (True, Kind.IMPACT)]
+    assert told[1].duration_s < 0.03
