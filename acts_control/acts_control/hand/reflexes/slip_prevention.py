@@ -24,6 +24,8 @@ from numpy.typing import NDArray
 from acts_control.hand.reflexes.base import HandState, Reflex, Sensed, Wish
 from acts_core.settings import setting, validate
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class SlipPreventionConfig:
@@ -76,9 +78,6 @@ class SlipPreventionConfig:
 
     def __post_init__(self) -> None:
         validate(self)
-
-
-Array = NDArray[np.float64]
 
 
 @dataclass
