@@ -9,6 +9,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -326,6 +328,9 @@ def _device(skin: Skin) -> str:
     if not skin.port.startswith("/"):
         return skin.port
     try:
-        return str(Path(skin.port).resolve())
+        device = Path(skin.port).resolve()
+        if device.is_symlink():  # of links in a circle; from Python 3.13 on `resolve` leaves one of them
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), skin.port)
+        return str(device)
     except (OSError, ValueError, RuntimeError) as error:
         raise skin.section.error(f"port = {skin.port!r}: {error}", "port") from None
