@@ -12,6 +12,7 @@ the run for ever.
 import faulthandler
 import fcntl
 import gc
+import importlib.util
 import os
 import signal
 import subprocess
@@ -73,6 +74,13 @@ def realtime() -> None:
     tried = "import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(21))"
     if subprocess.run([sys.executable, "-c", tried], capture_output=True).returncode != 0:
         pytest.skip("SCHED_FIFO is not allowed here (`acts doctor` tells what is missing)")
+
+
+@pytest.fixture(scope="session")
+def ur_rtde() -> None:
+    """The library of the UR5e; the test that asks for it is skipped where the Python is too new for a wheel of it."""
+    if sys.version_info >= (3, 13) and importlib.util.find_spec("rtde_receive") is None:
+        pytest.skip("ur_rtde has no wheel for Python 3.13 and newer: make setup PYTHON=/path/to/python3.12")
 
 
 @pytest.fixture(scope="module", autouse=True)

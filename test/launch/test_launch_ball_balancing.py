@@ -45,6 +45,7 @@ def wait_for_state(launched: Launched, state: int, timeout_s: float) -> BalanceS
     return status
 
 
+@pytest.mark.usefixtures("ur_rtde")
 @launch_test(balancing)
 def test_the_ball_is_brought_to_the_centre_and_the_end_is_orderly(balancing: Launched) -> None:
     wait_for_state(balancing, BalanceStatus.STATE_BALANCING, START_S)
@@ -69,6 +70,7 @@ def separate(tmp_path: Path) -> LaunchFile:
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 97, arguments)
 
 
+@pytest.mark.usefixtures("ur_rtde")
 @launch_test(separate)
 def test_in_separate_processes_a_lost_board_ends_motion_level(separate: Launched) -> None:
     wait_for_state(separate, BalanceStatus.STATE_BALANCING, START_S)
@@ -89,6 +91,7 @@ def robot_lost(tmp_path: Path) -> LaunchFile:
     return LaunchFile(PACKAGE, "ball_balancing.launch.xml", 98, arguments)
 
 
+@pytest.mark.usefixtures("ur_rtde")
 @launch_test(robot_lost)
 def test_a_lost_robot_stops_the_controller_with_a_reason(robot_lost: Launched) -> None:
     wait_for_state(robot_lost, BalanceStatus.STATE_BALANCING, START_S)

@@ -112,6 +112,7 @@ class Feeling:
         return re.findall(r"\[(tactile-\d+)\] ready to take over", self._launched.output)
 
 
+@pytest.mark.usefixtures("ur_rtde")
 @launch_test(balancing)
 def test_after_a_crash_of_the_process_that_feels_balancing_goes_on_by_itself(balancing: Launched) -> None:
     watch, feeling = Watch(balancing), Feeling(balancing)

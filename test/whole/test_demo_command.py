@@ -16,6 +16,7 @@ import pytest
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.usefixtures("ur_rtde")
 def test_the_demo_leaves_figures_and_a_picture(tmp_path: Path) -> None:
     environment = {**os.environ, "ROS_DOMAIN_ID": "70"}
     options = ["--seconds", "8", "--out", str(tmp_path), "--robot-ip", "127.0.6.10"]
@@ -55,6 +56,7 @@ def test_an_impossible_length_is_refused(tmp_path: Path) -> None:
     assert "--seconds: 1: allowed is a number from 5 to 600" in finished.stderr
 
 
+@pytest.mark.usefixtures("ur_rtde")
 def test_ctrl_c_ends_everything_that_was_started(tmp_path: Path) -> None:
     options = ["--out", str(tmp_path), "--robot-ip", "127.0.6.11"]
     with subprocess.Popen(

@@ -14,7 +14,7 @@ from waiting import wait_for
 
 from acts_msgs.msg import BalanceStatus
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 
 def test_a_start_that_waited_while_the_program_stood_still_moves_no_arm() -> None:

@@ -25,7 +25,7 @@ from acts_control.robots.ur.state import UrState
 from acts_core.errors import RobotError
 from acts_core.robots import ur5e
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 FAR = (ur5e.LEVEL_Q_RAD[0] + 0.5, *ur5e.LEVEL_Q_RAD[1:])
 PROGRAM, MOVE_J = "program rtde_control", "command 1"

@@ -21,7 +21,7 @@ from waiting import wait_for
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 CONNECTING, WAITING = BalanceStatus.STATE_CONNECTING, BalanceStatus.STATE_WAITING
 BALANCING, STOPPED = BalanceStatus.STATE_BALANCING, BalanceStatus.STATE_STOPPED

@@ -17,7 +17,7 @@ from acts_control.robots import with_robots
 from acts_control.robots.ur import UrRobot
 from acts_core.robots import ur5e
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 
 def test_an_arm_that_moves_slowly_at_last_is_tilted_though_its_move_has_not_ended() -> None:

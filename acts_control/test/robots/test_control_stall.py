@@ -35,7 +35,7 @@ from acts_core.errors import RobotError
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 # Within it the end of motion must have been told: a few steps after it counts as stale where the machine is not loaded.
 # What waited for the library took 6 s.
