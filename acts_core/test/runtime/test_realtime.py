@@ -180,7 +180,9 @@ def told(level, sentence):
 def run_away():
     enter_realtime(config, "reader", told)
     hashlib.pbkdf2_hmac("sha256", b"a", b"b", 100_000_000)
-threading.Thread(target=run_away).start()
+runaway = threading.Thread(target=run_away)
+runaway.start()
+runaway.join()  # from Python 3.12 on no thread starts another once the main thread has ended
 """)
     assert finished.returncode == 5
     assert "error: reader (thread" in finished.stdout
@@ -193,7 +195,9 @@ def test_a_thread_that_runs_away_with_the_interpreters_lock_ends_the_process() -
 def run_away():
     enter_realtime(config, "reader", log)
     re.match("(a+)+$", 60 * "a" + "b")
-threading.Thread(target=run_away).start()
+runaway = threading.Thread(target=run_away)
+runaway.start()
+runaway.join()  # from Python 3.12 on no thread starts another once the main thread has ended
 """)
     assert finished.returncode == -signal.SIGXCPU
     assert "most recent call first" in finished.stderr
