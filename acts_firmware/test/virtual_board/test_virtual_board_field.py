@@ -222,6 +222,18 @@ def test_recording_is_interpolated_between_its_frames(tmp_path: Path, loop: bool
         assert np.abs(frame.counts - truth).max() < 0.6
 
 
+def test_counts_of_a_recording_beyond_the_converter_are_told_once(tmp_path: Path) -> None:
+    recording = np.full((2, ROWS, COLS), 1023, dtype=np.uint16)
+    recording[1, 2, 3] = 1024
+    np.save(tmp_path / "frames.npy", recording)
+    with BoardProcess(tmp_path, *SMALL, "--recording", tmp_path / "frames.npy", "--loop") as board:
+        board.open_port()
+        frames = board.read_frames(400)
+        told = board.errors.read_text()
+    assert all((frame.counts == 1023).all() for frame in frames)
+    assert told.count("frame 1 has 1024 counts; all above 1023 are sent as 1023") == 1
+
+
 def test_noise_is_seeded_and_of_the_size_asked_for(tmp_path: Path) -> None:
     np.save(tmp_path / "frames.npy", np.full((1, ROWS, COLS), 500, dtype=np.uint16))
     # A stall of the machine makes a board skip frames, which draw no noise: then nothing can be compared any more.
@@ -289,6 +301,10 @@ def test_broken_recordings_are_refused(tmp_path: Path) -> None:
     assert "shorter than its header says" in refusal(path)
     path.write_bytes(whole[:20])
     assert "cut off" in refusal(path)
+
+
+def test_a_path_that_only_a_shell_knows_is_refused_in_words() -> None:
+    assert "~ is the home folder only to a shell" in refusal(Path("~/frames.npy"))
 
 
 def refusal(path: Path) -> str:

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "acts_firmware/limits.hpp"
 #include "field/field.hpp"
 #include "field/mapped_file.hpp"
 
@@ -44,7 +47,7 @@ NpyHeader read_header(const std::string& path, const MappedFile& file) {
 class Recording final : public Field {
  public:
   Recording(const std::string& path, int rows, int cols, double rate_hz, bool loop, std::int64_t start_ns)
-      : file_(path), frames_per_ns_(rate_hz / 1e9), loop_(loop), start_ns_(start_ns) {
+      : path_(path), file_(path), frames_per_ns_(rate_hz / 1e9), loop_(loop), start_ns_(start_ns) {
     const NpyHeader header = read_header(path, file_);
     taxels_ = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols);
     const std::string wanted =
@@ -89,11 +92,18 @@ class Recording final : public Field {
   }
 
  private:
-  double value(std::size_t frame, std::size_t index) const {
+  double value(std::size_t frame, std::size_t index) {
     const std::uint8_t* at = data_ + 2 * (frame * taxels_ + index);
-    return static_cast<double>(at[0] | at[1] << 8);
+    const int counts = at[0] | at[1] << 8;
+    if (counts > kCountMax && !told_) {
+      told_ = true;
+      std::cerr << "virtual_board: " << path_ << ": frame " << frame << " has " << counts << " counts; all above "
+                << kCountMax << " are sent as " << kCountMax << ", the most of the board's converter" << std::endl;
+    }
+    return counts;
   }
 
+  std::string path_;
   MappedFile file_;
   double frames_per_ns_;
   bool loop_;
@@ -101,6 +111,7 @@ class Recording final : public Field {
   std::size_t taxels_ = 0;
   std::size_t frames_ = 0;
   const std::uint8_t* data_ = nullptr;
+  bool told_ = false;
 };
 
 }  // namespace
