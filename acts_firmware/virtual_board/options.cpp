@@ -90,12 +90,7 @@ void named(const std::string& name, const std::function<void()>& act) {
   }
 }
 
-std::string path_or_none(const std::string& name, const std::string& text) {
-  if (text.rfind("~/", 0) == 0) {
-    throw OptionError(
-        name + " " + text +
-        ": ~ is the home folder only to a shell, and only where a word begins with it; write the whole path");
-  }
+std::string path_or_none(const std::string& text) {
   return text == "none" ? "" : text;
 }
 
@@ -140,11 +135,11 @@ std::vector<Option> common_options(Options& o) {
   SamplingConfig& s = o.sampling;
   return {
       {"--link", "PATH", "symbolic link to the pseudo-terminal, made at the start and removed at the end",
-       [&o](const std::string& v) { o.link = path_or_none("--link", v); }},
+       [&o](const std::string& v) { o.link = path_or_none(v); }},
       {"--field-ring", "PATH", "pressure field of a simulated world (acts_sim/shared/timed_ring.py); none: no world",
-       [&o](const std::string& v) { o.field_ring = path_or_none("--field-ring", v); }},
+       [&o](const std::string& v) { o.field_ring = path_or_none(v); }},
       {"--recording", "FILE.npy", "play frames (n, rows, cols) uint16 instead of the world; none: no recording",
-       [&o](const std::string& v) { o.recording = path_or_none("--recording", v); }},
+       [&o](const std::string& v) { o.recording = path_or_none(v); }},
       {"--recording-rate-hz", "R", "frames per second of the recording (1000)",
        [&o](const std::string& v) { o.recording_rate_hz = number("--recording-rate-hz", v, 0.001, 1e6); }},
       {"--loop", "", "start the recording over at its end; without, its last frame is held",
@@ -191,7 +186,7 @@ std::vector<Option> common_options(Options& o) {
       {"--fault", "FAULT", "a fault at a time, KIND[:VALUE][@SECONDS]; may be given again and again",
        [&o](const std::string& v) { named("--fault", [&o, &v] { o.faults.push_back(parse_fault(v)); }); }},
       {"--control", "PATH", "named pipe to which faults can be written at any time, a line each; none: no pipe",
-       [&o](const std::string& v) { o.control = path_or_none("--control", v); }},
+       [&o](const std::string& v) { o.control = path_or_none(v); }},
       {"--print-status", "", "print a line of JSON at the start (link, port, time of board time 0) and for every fault",
        [&o](const std::string&) { o.print_status = true; }},
       {"--status-period-s", "T", "print another such line with frames and overruns every T seconds (0: never)",
@@ -201,7 +196,7 @@ std::vector<Option> common_options(Options& o) {
        [&o](const std::string& v) { o.realtime.priority = whole("--realtime-priority", v, 0, kMaxPriority); }},
       {"--cpu-affinity", "CORES", "cores to run on, as in 2 or 0,2-3; none: any",
        [&o](const std::string& v) {
-         named("--cpu-affinity", [&o, &v] { o.realtime.cores = parse_cores(path_or_none("--cpu-affinity", v)); });
+         named("--cpu-affinity", [&o, &v] { o.realtime.cores = parse_cores(path_or_none(v)); });
        }},
       {"--help", "", "print this and stop", [&o](const std::string&) { o.help = true; }},
   };

@@ -304,7 +304,7 @@ def test_broken_recordings_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_path_that_only_a_shell_knows_is_refused_in_words() -> None:
-    assert "~ is the home folder only to a shell" in refusal(Path("~/frames.npy"))
+    assert "~ is replaced by no shell there; write $HOME" in refusal(Path("~/frames.npy"))
 
 
 def refusal(path: Path) -> str:

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace acts {
@@ -18,7 +19,9 @@ MappedFile::MappedFile(const std::string& path) {
   // Not waiting: of a pipe, open() would wait for its writer.
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
-    throw std::runtime_error(path + ": cannot be read (" + std::strerror(errno) + ")");
+    const std::string why = std::string(": cannot be read (") + std::strerror(errno) + ")";
+    const bool is_home = path.rfind('~', 0) == 0;
+    throw std::runtime_error(path + why + (is_home ? "; ~ is replaced by no shell there; write $HOME" : ""));
   }
   struct stat status{};
   void* map = MAP_FAILED;
