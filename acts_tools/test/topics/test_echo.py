@@ -190,17 +190,27 @@ def test_a_weaker_publisher_that_comes_later_is_heard_too() -> None:
 
 def test_a_reader_that_ends_ends_the_command_without_a_word(talker: Node) -> None:
     impacts = talker.create_publisher(Impact, "/plate/impacts", STREAM)
+    for _ in range(5):
+        ended = end_of_a_command_that_nobody_reads(impacts)
+        # On a busy machine a publisher may be found late, which is told: then this says nothing of the end.
+        if ended != (1, "/plate/impacts: no publisher found yet. Ctrl-C ends the waiting\n"):
+            break
+    assert ended == (1, "")
+
+
+def end_of_a_command_that_nobody_reads(publisher: Publisher) -> tuple[int, str]:
+    """Exit code and standard error output."""
     command = [sys.executable, "-m", "acts_tools", "echo", "plate/impacts"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout is not None
     process.stdout.close()
     try:
-        publish_until_it_ends(process, impacts)
+        publish_until_it_ends(process, publisher)
     finally:
         process.kill()
     assert process.stderr is not None
     with process.stderr as errors:
-        assert (process.wait(), errors.read()) == (1, "")
+        return process.wait(), errors.read()
 
 
 def test_who_hears_nothing_is_told(talker: Node) -> None:
