@@ -148,7 +148,7 @@ def test_frames_are_classified_without_allocating(objects: ObjectLibrary) -> Non
             tracemalloc.stop()
     # Views and numbers; a single copy of the image would be 4096 bytes. At first, and whenever CPython has emptied its
     # cache of attributes, the names that numba looks up are kept there, too.
-    assert min(peaks) < 3500
+    assert sorted(peaks)[len(peaks) // 2] < 3500
 
 
 @given(st.lists(st.floats(0, 2, width=32), min_size=1, max_size=40))
