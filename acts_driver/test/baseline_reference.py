@@ -13,8 +13,7 @@ def observe(
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     time_ns: int,
-    rows: int,
-    cols: int,
+    neighbours: NDArray[np.int32],
     block_n: NDArray[np.int64],
     block_sums: NDArray[np.float64],
     block_ends: NDArray[np.int64],
@@ -40,13 +39,12 @@ def observe(
     measured_ns[indices] = time_ns
     if not is_tracking:
         return
-    frozen = frozen_until_ns.reshape(rows, cols)
     for taxel, value, since in zip(indices.tolist(), values.tolist(), since_ns.tolist(), strict=True):
         if freeze_counts[taxel] < 0:
             continue
         difference = value - float(baseline[taxel])
-        row, col = divmod(taxel, cols)
         if abs(difference) > freeze_counts[taxel]:
-            frozen[max(row - 1, 0) : row + 2, max(col - 1, 0) : col + 2] = time_ns + hold_ns
+            around = neighbours[taxel]
+            frozen_until_ns[[taxel, *around[around >= 0]]] = time_ns + hold_ns
         elif time_ns >= frozen_until_ns[taxel]:
             baseline[taxel] += np.clip(since / tau_ns, 0.0, largest_step) * difference

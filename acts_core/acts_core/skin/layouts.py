@@ -82,6 +82,22 @@ class Layout:
         return by_taxel
 
     @cached_property
+    def neighbours(self) -> NDArray[np.int32]:
+        """The up to eight taxels around each taxel of the matrix, on the skin and on the same patch.
+
+        np.ndarray [shape=(matrix_rows * matrix_cols, 8), dtype=int32, read-only]: matrix indices, -1 for none.
+        """
+        taxels = np.pad(self.taxels.astype(np.int32), 1, constant_values=-1)
+        patches = np.pad(self.patch_of, 1, constant_values=NO_PATCH)
+        around = []
+        for row, col in ((0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1), (2, 2)):
+            there = slice(row, row + self.rows), slice(col, col + self.cols)
+            around.append(np.where(patches[there] == self.patch_of, taxels[there], np.int32(-1)).ravel())
+        by_taxel = np.stack(around, axis=1)[self.places]
+        by_taxel.flags.writeable = False
+        return by_taxel
+
+    @cached_property
     def is_matrix(self) -> bool:
         """Whether the picture is the matrix itself and one patch, as that of a square pad."""
         taxels = np.arange(self.matrix_rows * self.matrix_cols)

@@ -23,6 +23,23 @@ def test_every_taxel_has_one_place_and_back(name: str) -> None:
     assert shape.picture(values).shape == (shape.rows, shape.cols)
 
 
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_neighbours_are_those_on_the_skin_and_on_one_patch(name: str) -> None:
+    shape = layout(name)
+    assert shape.neighbours.shape == (1024, 8)
+    for row in range(shape.rows):
+        for col in range(shape.cols):
+            expected = {
+                int(shape.taxels[r, c])
+                for r in range(max(row - 1, 0), min(row + 2, shape.rows))
+                for c in range(max(col - 1, 0), min(col + 2, shape.cols))
+                if (r, c) != (row, col) and shape.patch_of[r, c] == shape.patch_of[row, col]
+            }
+            found = shape.neighbours[shape.taxels[row, col]]
+            assert set(found[found >= 0].tolist()) == expected
+            assert (found >= 0).sum() == len(expected)
+
+
 @given(st.integers(1, 64), st.integers(1, 64))
 def test_square_is_the_matrix_of_any_size(rows: int, cols: int) -> None:
     shape = layout("square", rows, cols)

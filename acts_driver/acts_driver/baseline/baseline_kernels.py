@@ -19,8 +19,7 @@ def observe(
     indices: NDArray[np.uint16],
     counts: NDArray[np.uint16],
     time_ns: int,
-    rows: int,
-    cols: int,
+    neighbours: NDArray[np.int32],
     block_n: NDArray[np.int64],
     block_sums: NDArray[np.float64],
     block_ends: NDArray[np.int64],
@@ -41,8 +40,8 @@ def observe(
         The samples; indices lie in the array.
     time_ns : int
         When the frame was measured [ns].
-    rows, cols : int
-        Size of the array; n is the number of its taxels.
+    neighbours : np.ndarray [shape=(n, 8), dtype=int32]
+        The taxels around each, -1 for none; n is the number of taxels.
     block_n : np.ndarray [shape=(n,), dtype=int64]
         Readings in the present block; raised.
     block_sums : np.ndarray [shape=(n, 2), dtype=float64]
@@ -52,8 +51,8 @@ def observe(
     baseline : np.ndarray [shape=(n,), dtype=float64]
         Followed where it is not frozen [counts]. The steps of a taxel that is measured often are too small for float32.
     freeze_counts : np.ndarray [shape=(n,), dtype=float32]
-        A reading farther from the baseline than this freezes it there and at the eight taxels around [counts];
-        negative where there is no baseline.
+        A reading farther from the baseline than this freezes it there and at the taxels around [counts]; negative
+        where there is no baseline.
     measured_ns, frozen_until_ns : np.ndarray [shape=(n,), dtype=int64]
         When the taxel was measured last; until when its baseline stays. Both updated.
     is_tracking : bool
@@ -79,11 +78,10 @@ def observe(
             continue
         difference = count - baseline[taxel]
         if abs(difference) > freeze_counts[taxel]:
-            row = taxel // cols
-            col = taxel - row * cols
-            for r in range(max(row - 1, 0), min(row + 2, rows)):
-                for c in range(max(col - 1, 0), min(col + 2, cols)):
-                    frozen_until_ns[r * cols + c] = time_ns + hold_ns
+            frozen_until_ns[taxel] = time_ns + hold_ns
+            for neighbour in neighbours[taxel]:
+                if neighbour >= 0:
+                    frozen_until_ns[neighbour] = time_ns + hold_ns
         elif time_ns >= frozen_until_ns[taxel]:
             share = min(max(since_ns / tau_ns, 0.0), largest_step)
             baseline[taxel] += share * difference

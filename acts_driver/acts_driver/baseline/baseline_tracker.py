@@ -19,6 +19,7 @@ from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import NS_PER_S, Pace
 from acts_core.settings import setting, validate
+from acts_core.skin import Layout, layout
 from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
@@ -129,7 +130,8 @@ class BaselineTracker:
 
     Calibration and tare use the statistics of the last seconds, which are always kept, so both answer at once. From
     then on the baseline of a taxel is an exponential average of its readings. A reading farther from the baseline than
-    drift can explain is a touch: it freezes the baseline of the taxel and of the eight around it for a while.
+    drift can explain is a touch: it freezes the baseline of the taxel and of the eight around it for a while. Until
+    `arrange` has told how the taxels lie on the skin, those around are the ones of the matrix.
 
     Parameters
     ----------
@@ -141,6 +143,7 @@ class BaselineTracker:
     def __init__(self, rows: int, cols: int, config: BaselineConfig | None = None) -> None:
         self.config = config or BaselineConfig()
         self._shape = (rows, cols)
+        self._neighbours = layout("square", rows, cols).neighbours
         size = rows * cols
         self._lock = threading.Lock()
         self._block_ns = int(self.config.tare_s * NS_PER_S)
@@ -162,6 +165,17 @@ class BaselineTracker:
         # Compiled, or loaded, before the first frame.
         self._update(np.zeros(1, dtype=np.uint16), np.zeros(1, dtype=np.uint16), 0)
         self._blocks[self._growing].clear()
+
+    def arrange(self, skin: Layout) -> None:
+        """Set which taxels lie around one another.
+
+        Parameters
+        ----------
+        skin : Layout
+            Of this matrix.
+        """
+        with self._lock:
+            self._neighbours = skin.neighbours
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Update by frames with the times of their measurement [ns], in order."""
@@ -312,8 +326,7 @@ class BaselineTracker:
             indices,
             counts,
             time_ns,
-            self._shape[0],
-            self._shape[1],
+            self._neighbours,
             block.n,
             block.sums,
             block.ends,
@@ -335,10 +348,9 @@ class BaselineTracker:
 
     def _beside_others(self, suspicious: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Those of these taxels that are not alone."""
-        grid = np.pad(suspicious.reshape(self._shape), 1).astype(np.int64)
-        rows, cols = self._shape
-        around = sum(grid[r : r + rows, c : c + cols] for r in range(3) for c in range(3))
-        return suspicious & (np.asarray(around).ravel() > 1)
+        # -1, no neighbour, is the last of these.
+        around = np.append(suspicious, False)[self._neighbours]
+        return suspicious & around.any(axis=1)
 
     def _set(
         self,

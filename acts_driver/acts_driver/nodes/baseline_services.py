@@ -9,7 +9,9 @@ import threading
 import time
 from array import array
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,16 +21,19 @@ from std_srvs.srv import Trigger
 from acts_core.errors import ActsError, CalibrationError, SettingsError
 from acts_core.files import is_there, path_of
 from acts_core.frames import SampleFrame
-from acts_core.runtime import Pace, within_patience
+from acts_core.runtime import Pace, begin, within_patience
 from acts_core.settings import is_given
+from acts_core.skin import Layout, layout
 from acts_core.words import counted
-from acts_driver.baseline import Baseline, BaselineParameters, BaselineTracker
+from acts_driver.baseline import Baseline, BaselineTracker
+from acts_driver.settings import DriverSettings
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.clocks import steady_timer
 from acts_ros.messages import set_stamp
 from acts_ros.qos import LATCHED, overridable
 
-_PUBLISH_PERIOD_S = 1.0
+# Of what is published, and of a layout that is being read.
+_PERIOD_S = 1.0
 _MOVED_COUNTS = 0.5
 # Older frames do not show the present skin, unless they come as rarely [s].
 _FRESH_S = 0.5
@@ -46,9 +51,7 @@ class BaselineServices:
     ----------
     node : rclpy.node.Node
         Gets the services ``~/calibrate`` and ``~/tare`` (std_srvs/Trigger) and the topic ``baseline``.
-    parameters : BaselineParameters
-    rows, cols : int
-        Size of the array.
+    settings : DriverSettings
     frame_id : str
         Of the messages' headers.
 
@@ -58,11 +61,12 @@ class BaselineServices:
         When the file holds no baseline of this array.
     """
 
-    def __init__(self, node: Node, parameters: BaselineParameters, rows: int, cols: int, frame_id: str) -> None:
+    def __init__(self, node: Node, settings: DriverSettings, frame_id: str) -> None:
         self._node = node
         self._frame_id = frame_id
         self._path: Path | None = None
         self._tracker: BaselineTracker
+        self._layout: Future[Layout] | None = None
         self._published: Baseline | None = None
         self._pace = Pace()
         # Between calibrations that are being stored, on threads of their own; and the last of them.
@@ -75,10 +79,10 @@ class BaselineServices:
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
         # Nobody is answered yet: a slow file has all the time it needs.
-        self._begin(parameters, rows, cols, lambda load, _what: load())
-        steady_timer(node, _PUBLISH_PERIOD_S, self._publish_where_moved)
+        self._begin(settings, lambda load, _what: load())
+        steady_timer(node, _PERIOD_S, self._step)
 
-    def begin(self, parameters: BaselineParameters, rows: int, cols: int) -> None:
+    def begin(self, settings: DriverSettings) -> None:
         """Begin anew with other parameters, while no frames come.
 
         Raises
@@ -86,12 +90,16 @@ class BaselineServices:
         SettingsError
             When the file holds no baseline of this array, or takes too long to be read; nothing has changed then.
         """
-        self._begin(parameters, rows, cols, lambda load, what: within_patience(load, SettingsError, what))
+        self._begin(settings, lambda load, what: within_patience(load, SettingsError, what))
 
-    def _begin(self, parameters: BaselineParameters, rows: int, cols: int, wait_for: _WaitFor) -> None:
-        file = parameters.calibration_file
+    def arrange(self, settings: DriverSettings) -> None:
+        """Take over how the taxels lie on the skin, as soon as the layout's file is read."""
+        self._layout = begin(partial(layout, settings.layout or "square", settings.rows, settings.cols))
+
+    def _begin(self, settings: DriverSettings, wait_for: _WaitFor) -> None:
+        file, rows, cols = settings.calibration_file, settings.rows, settings.cols
         path = path_of(file, error=SettingsError) if is_given(file) else None
-        tracker = BaselineTracker(rows, cols, parameters.baseline_config())
+        tracker = BaselineTracker(rows, cols, settings.baseline_config())
 
         def load() -> Baseline | None:
             return Baseline.load(path, rows, cols) if path is not None and is_there(path, error=SettingsError) else None
@@ -99,6 +107,7 @@ class BaselineServices:
         baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
         self._published = None
         self._path, self._tracker, self._pace = path, tracker, Pace()
+        self.arrange(settings)
         self._baseline_board_id = 0 if baseline is None else baseline.board_id
         if baseline is not None:
             tracker.set(baseline)
@@ -212,6 +221,20 @@ class BaselineServices:
         response.success = success
         response.message = message
         return response
+
+    def _step(self) -> None:
+        if self._layout is not None and self._layout.done():
+            self._take_over(self._layout)
+            self._layout = None
+        self._publish_where_moved()
+
+    def _take_over(self, read: Future[Layout]) -> None:
+        try:
+            self._tracker.arrange(read.result())
+        except ActsError as error:
+            self._node.get_logger().warning(
+                f"{error}; the baseline goes on with the neighbours that it knows, at first those of the matrix"
+            )
 
     def _publish_where_moved(self) -> None:
         present, last = self._tracker.present(), self._published

@@ -83,7 +83,7 @@ class DriverNode(LifecycleNode):
         self._reported: tuple[float, int, str] | None = None
         self._frame_id = frame_id = skin_frame(self, self._settings.frame_id)
         self._message = SamplesMessage(frame_id)
-        self._baseline = BaselineServices(self, self._settings, self._settings.rows, self._settings.cols, frame_id)
+        self._baseline = BaselineServices(self, self._settings, frame_id)
         self._board = BoardInterface(self, frame_id, self._frames_in_words)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._topics = BoardTopics(self, frame_id)
@@ -212,9 +212,11 @@ class DriverNode(LifecycleNode):
             if self.intake is not None:
                 self.intake.change(settings)
             elif _baseline_of(settings) != _baseline_of(self._settings):
-                self._baseline.begin(settings, settings.rows, settings.cols)
+                self._baseline.begin(settings)
         except ActsError as error:
             return str(error)
+        if settings.layout != self._settings.layout:
+            self._baseline.arrange(settings)
         before, self._settings = self._what, settings
         self._next_source = None
         if self._what != before:

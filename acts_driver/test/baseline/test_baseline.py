@@ -268,13 +268,14 @@ def test_kernel_equals_reference(seed: int, is_tracking: bool, rows: int, cols: 
 
     baseline = rng.uniform(0, 60, size)
     freeze = np.where(rng.random(size) < 0.2, -1, 20).astype(np.float32)
+    neighbours = rng.integers(-1, size, (size, 8)).astype(np.int32)
     one, other = state(), state()
     for frame in range(6):
         indices = rng.permutation(size)[: rng.integers(0, size + 1)].astype(np.uint16)
         counts = rng.integers(0, 90, len(indices)).astype(np.uint16)
         rest: list[Any] = [is_tracking, 2e9, 150_000_000, 0.05]
-        baseline_kernels.observe(indices, counts, frame * 10**8, rows, cols, *one, *rest)
-        baseline_reference.observe(indices, counts, frame * 10**8, rows, cols, *other, *rest)
+        baseline_kernels.observe(indices, counts, frame * 10**8, neighbours, *one, *rest)
+        baseline_reference.observe(indices, counts, frame * 10**8, neighbours, *other, *rest)
     for mine, reference in zip(one, other, strict=True):
         assert np.allclose(mine, reference, rtol=1e-5, atol=1e-5)
 

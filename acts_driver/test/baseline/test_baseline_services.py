@@ -104,9 +104,9 @@ def calibrate(rig: Rig) -> None:
     ask_until(rig, "calibrate", lambda answer: bool(answer.success), "a calibration")
 
 
-def start(rig: Rig, stream: Stream, path: Path) -> list[Baseline]:
+def start(rig: Rig, stream: Stream, path: Path, **more: object) -> list[Baseline]:
     """A driver on the stream; what it publishes on `baseline`."""
-    rig.start_driver(port=stream.board.path, rows=ROWS, cols=COLS, frame_id="plate", calibration_file=path)
+    rig.start_driver(port=stream.board.path, rows=ROWS, cols=COLS, frame_id="plate", calibration_file=path, **more)
     baselines: list[Baseline] = []
     rig.listener.create_subscription(Baseline, "baseline", baselines.append, LATCHED)
     return baselines
@@ -129,6 +129,12 @@ def close_port(rig: Rig) -> None:
     assert rig.driver is not None
     rig.driver.trigger_deactivate()
     rig.driver.trigger_cleanup()
+
+
+def open_port(rig: Rig) -> None:
+    assert rig.driver is not None
+    rig.driver.trigger_configure()
+    rig.driver.trigger_activate()
 
 
 def test_where_there_is_no_baseline_yet_the_log_names_the_service_as_it_is_called(
@@ -175,6 +181,42 @@ def test_calibrate_and_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
     status = rig.status_until(lambda status: status.get("baseline") == "tare", "the report")
     assert status["baseline_taxels"] == str(SIZE)
     assert {"baseline_below", "baseline_drift_per_min.median", "baseline_drift_per_min.largest"} <= status.keys()
+
+
+def test_a_touch_is_one_of_taxels_that_are_neighbours_on_the_skin(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    combed = tmp_path / "combed.yaml"
+    combed.write_text("patches:\n  pad:\n    wires: {down: 'rows 0 to 6 by 2, 1 to 7 by 2', across: cols}\n")
+    # In the matrix these are two broken taxels.
+    stream.field[[3, 2 * COLS + 3]] = 400
+    start(rig, stream, tmp_path / "skin.npz", layout=combed)
+    stream.start()
+    ask_until(rig, "calibrate", lambda answer: "the skin was touched: 2 taxels" in answer.message, "a refusal")
+    close_port(rig)
+    assert rig.set_parameters(layout="") == (True, "")
+    open_port(rig)
+    calibrate(rig)
+    # Against this baseline they are untouched.
+    stream.field[[3, 2 * COLS + 3]] = 800
+    close_port(rig)
+    assert rig.set_parameters(layout=str(combed)) == (True, "")
+    open_port(rig)
+    ask_until(rig, "calibrate", lambda answer: "the skin was touched: 2 taxels" in answer.message, "a refusal again")
+
+
+def test_a_layout_that_cannot_be_read_leaves_the_baseline_its_neighbours(
+    rig: Rig, stream: Stream, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    start(rig, stream, tmp_path / "skin.npz", layout=tmp_path / "none.yaml")
+    told = ""
+
+    def is_told() -> bool:
+        nonlocal told
+        told += capfd.readouterr().err
+        return "none.yaml" in told and "the baseline goes on with the neighbours that it knows" in told
+
+    stream.start()
+    rig.spin_until(is_told, "the warning")
+    calibrate(rig)
 
 
 @pytest.mark.parametrize("service", ["calibrate", "tare"])
@@ -259,9 +301,7 @@ def test_a_file_that_cannot_even_be_looked_for_is_refused_and_the_node_goes_on(
     done, reason = rig.set_parameters(calibration_file=file)
     assert not done
     assert re.search(words, reason)
-    assert rig.driver is not None
-    rig.driver.trigger_configure()
-    rig.driver.trigger_activate()
+    open_port(rig)
     calibrate(rig)
 
 

@@ -19,6 +19,7 @@ from acts_core.errors import ActsError, SettingsError, ViewRequestError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import NS_PER_S, Pace
 from acts_core.sampling import SamplingConfig
+from acts_core.skin import layout as layout_of
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineTracker
 from acts_driver.nodes.intake import Intake
@@ -235,6 +236,7 @@ class BoardSource:
         settings = ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout)
         self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._tracker = BaselineTracker(driver.rows, driver.cols, driver.baseline_config())
+        self._tracker.arrange(layout_of(layout, driver.rows, driver.cols))
         self._intake = Intake(driver, self._source, self._take, log=log, on_board=lambda _: None)
         self._told: dict[str, Any] = {}
         self._told_s = -_DIAGNOSTICS_PERIOD_S

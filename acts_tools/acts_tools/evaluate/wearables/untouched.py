@@ -73,6 +73,7 @@ def watch_untouched(
     config = SamplingConfig(scheme=SCHEME, m=m, threshold_counts=THRESHOLD_COUNTS, seed=int(rng.integers(1, 2**31)))
     sampler = sampler_of(config, noise_counts, watcher.skin_map)
     tracker = BaselineTracker(rows, cols, BaselineConfig())
+    tracker.arrange(arranged)
     sample_s = 1e-6 * MEASUREMENT_US
     duration_s = m * sample_s
     per_second = int(1 / duration_s)
