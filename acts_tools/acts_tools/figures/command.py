@@ -31,9 +31,11 @@ _WITHOUT = f"The paper's curves are not drawn: give their folder as --paper-data
 _MISSING = "The paper's curves are not drawn: they are not all in the given folder."
 
 
+_OUT, _OUT_FAST = Path("figures"), Path("figures_fast")
+
 _EPILOG = """\
 examples:
-  acts figures 4E --fast                                one figure, in rough numbers
+  acts figures 4E --fast                                one figure, in rough numbers, in the folder figures_fast
   acts figures                                          all of them, in the folder figures
 """
 
@@ -50,7 +52,9 @@ def add_parser(subparsers: Any) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)} (default: all)")
-    parser.add_argument("--out", type=Path, default=Path("figures"), metavar="DIR", help="default: %(default)s")
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help=f"replaces figures there (default: {_OUT}, with --fast {_OUT_FAST})"
+    )
     parser.add_argument("--fast", action="store_true", help="few presses and drops, rough numbers: a minute for all")
     parser.add_argument(
         "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
@@ -79,8 +83,9 @@ def run(arguments: argparse.Namespace) -> int:
     """
     figures = figures_named(arguments.name)
     published = published_data(arguments.paper_data)
-    make_folder(arguments.out, "--out")
-    one = Run(arguments.out, arguments.seed, arguments.fast, arguments.again)
+    out = arguments.out or (_OUT_FAST if arguments.fast else _OUT)
+    make_folder(out, "--out")
+    one = Run(out, arguments.seed, arguments.fast, arguments.again)
     results = report.Results(arguments.json, one.settings)
     if published is None and any(figure.has_published for figure in figures):
         print(_WITHOUT)

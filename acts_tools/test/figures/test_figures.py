@@ -93,6 +93,14 @@ def test_a_figure_is_not_measured_again(tmp_path: Path, capsys: pytest.CaptureFi
     assert told == [False, True, False, False, False]
 
 
+def test_rough_numbers_do_not_replace_good_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for more in ([], ["--fast"]):
+        assert main(["figures", "4D", *more]) == 0
+    made = {path.parent.name: json.loads(path.read_text())["fast"] for path in tmp_path.glob("*/fig_4d.json")}
+    assert made == {"figures": False, "figures_fast": True}
+
+
 @pytest.mark.parametrize(
     ("name", "fast", "how"),
     [
