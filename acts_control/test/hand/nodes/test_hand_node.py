@@ -79,7 +79,7 @@ def test_the_node_publishes_joint_states_follows_commands_and_ends_in_order(bus:
 
 
 def test_what_was_commanded_while_the_program_stood_still_as_torque_came_on_is_not_done(
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     bus, is_enabling, may_go_on = MadeBus(), threading.Event(), threading.Event()
     enable = bus.enable
@@ -107,7 +107,9 @@ def test_what_was_commanded_while_the_program_stood_still_as_torque_came_on_is_n
         cycles = node.loop.status.cycles
         user.until(lambda: node.loop.status.cycles > cycles + 20)
         assert bus.sent[-1] == pytest.approx(bus.q_rad)
-        assert "this program stood still for " in node.report()[1]
+        # The node's own reports, once a second, tell the words of each refusal once.
+        assert node.report()[2]["refused"] == 1
+        assert "a command was left out: this program stood still for " in capfd.readouterr().err
 
         def is_obeyed() -> bool:
             commands.publish(command)
