@@ -13,7 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
 from acts_ros.clocks import steady_timer
-from acts_ros.publishers import OnlyPublishers
+from acts_ros.publishers import OnlyPublishers, TolerantPublisher
 
 OK = 0
 WARN = 1
@@ -57,7 +57,7 @@ class DiagnosticsReporter:
         self.hardware_id = hardware_id
         self._report = report
         self._only = OnlyPublishers(node, only_publishers)
-        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", 10, publisher_class=TolerantPublisher)
         self._timer = steady_timer(node, period_s, self.publish)
 
     def publish(self) -> None:

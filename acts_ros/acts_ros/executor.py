@@ -14,6 +14,8 @@ from contextlib import ExitStack
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, ParameterUninitializedException
 from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -146,7 +148,13 @@ def _spin(executor: Executor, signals: StopSignals) -> None:
     stopped: Future[None] = Future()
     signals.on_stop(lambda: stopped.set_result(None))
     while not stopped.done():
-        executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
+        try:
+            executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
+        except rclpy_implementation.RCLError as error:
+            # An answer of a service, or one of the messages that rclpy publishes itself.
+            if not str(error).startswith(middleware.NOT_SENT):
+                raise
+            get_logger("acts_ros").warning(middleware.reason_of(error))
 
 
 def _require_own_names(nodes: Sequence[Node]) -> None:

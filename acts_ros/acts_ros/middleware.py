@@ -44,6 +44,9 @@ HIGHEST_DOMAIN = 232
 
 # The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
+
+NOT_SENT = ("Failed to publish", "failed to send response")
+"""How rclpy's errors begin of a message, or an answer, that the middleware did not take."""
 _NO_LOG = "failed to initialize logging"
 
 
@@ -64,6 +67,11 @@ def init(**options: Any) -> None:
         get_logger("acts_ros").warning(
             f"{_RANGE} asks for this machine only, but {obstacle}: others may get in (docs/security.md)"
         )
+
+
+def reason_of(error: Exception) -> str:
+    """What an error of rclpy says, without the lines of ROS's source that it adds."""
+    return _SOURCE_PLACE.sub("", str(error))
 
 
 def check_domain(environment: Mapping[str, str]) -> None:
@@ -92,9 +100,9 @@ def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:
-        raise SettingsError(_SOURCE_PLACE.sub("", str(error))) from None
+        raise SettingsError(reason_of(error)) from None
     except rclpy_implementation.RCLError as error:
-        reason = _SOURCE_PLACE.sub("", str(error))
+        reason = reason_of(error)
         if not reason.startswith(_NO_LOG):
             raise
         raise SettingsError(f"ROS: {reason}; set ROS_LOG_DIR to a folder that can be written") from None

@@ -1,20 +1,65 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Notice that a topic which one node is meant to publish has a second publisher: a forger, or a second launch."""
+"""Publishers whose failures end nothing, and notice of a second publisher of a topic: a forger, or a second launch."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from typing import Any
 
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from acts_ros.log import STEADY
+from acts_ros.middleware import NOT_SENT, reason_of
+from acts_ros.qos import overridable
 
 # Fast DDS keeps a process that was killed in the graph for 20 s, beside the one that was started in its place.
 SAME_NAME_S = 25.0
 """Publishers of one name are reported when they have been there for so long [s]."""
 
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
+
+# Fast DDS waits 0.1 s for each.
+_ATTEMPTS_LATCHED = 3
+# Shortest time between two lines in the log.
+_PERIOD_S = 1.0
+
+
+class TolerantPublisher(Publisher):
+    """The `publisher_class` of every node: logs that a message was not published, where that of rclpy raises.
+
+    Fast DDS gives a message up when its own threads do not let go of a writer within 0.1 s, as on a machine that has no
+    CPU time for them. Raised, this would end the node, or a thread that holds a robot or a hand.
+    """
+
+    def publish(self, msg: Any) -> None:
+        """Publish; one that is kept for late joiners, and does not come again soon, is tried a few times."""
+        is_latched = self.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        for left in reversed(range(_ATTEMPTS_LATCHED if is_latched else 1)):
+            try:
+                super().publish(msg)
+            except rclpy_implementation.RCLError as error:
+                if not str(error).startswith(NOT_SENT):
+                    raise
+                if not left:
+                    get_logger("acts_ros").warning(
+                        f"a message on {self.topic_name} was not published: {reason_of(error)}",
+                        throttle_duration_sec=_PERIOD_S,
+                        throttle_time_source_type=STEADY,
+                    )
+            else:
+                return
+
+
+def published(profile: QoSProfile) -> dict[str, Any]:
+    """Keyword arguments for a `TolerantPublisher` whose quality of service a params file may override."""
+    return {**overridable(profile), "publisher_class": TolerantPublisher}
 
 
 class OnlyPublishers:

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A second publisher of a topic that one node is meant to publish is reported; ROS_DOMAIN_ID 113."""
+"""Publishers whose failures end nothing, and a second publisher of a topic is reported; ROS_DOMAIN_ID 113."""
 
 from __future__ import annotations
 
@@ -10,11 +10,16 @@ from collections.abc import Iterator
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from peers import Peers
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
 from std_msgs.msg import Int32
 
+from acts_ros import publishers
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
-from acts_ros.publishers import SAME_NAME_S, OnlyPublishers
+from acts_ros.publishers import SAME_NAME_S, OnlyPublishers, TolerantPublisher, published
+from acts_ros.qos import LATCHED, STREAM
 
 
 class Graph(Peers):
@@ -80,3 +85,47 @@ def test_the_diagnostics_warn_of_it(own: int, message: str, graph: Graph) -> Non
     graph.until(lambda: any(one.message.startswith(message) for one in found))
     assert found[-1].level == (DiagnosticStatus.WARN if own == OK else DiagnosticStatus.ERROR)
     reporter.destroy()
+
+
+class Middleware:
+    """Takes messages, but for the first few of them."""
+
+    def __init__(self, refused: int, words: str) -> None:
+        self.refused = refused
+        self.words = words
+        self.asked = 0
+        self._publish = Publisher.publish
+
+    def publish(self, publisher: Publisher[Int32], msg: Int32) -> None:
+        self.asked += 1
+        if self.asked <= self.refused:
+            raise rclpy_implementation.RCLError(f"{self.words}, at /project/src/rmw_publish.cpp:68")
+        self._publish(publisher, msg)
+
+
+@pytest.mark.parametrize(("profile", "refused", "asked"), [(STREAM, 1, 1), (LATCHED, 2, 3), (LATCHED, 9, 3)])
+def test_a_message_that_the_middleware_does_not_take_is_told_and_ends_nothing(
+    graph: Graph,
+    profile: QoSProfile,
+    refused: int,
+    asked: int,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    publisher = graph.watcher.create_publisher(Int32, "touch", **published(profile))
+    middleware = Middleware(refused, "Failed to publish: cannot publish data")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    # Past the throttle of an earlier line.
+    monkeypatch.setattr(publishers, "_PERIOD_S", 0.0)
+    publisher.publish(Int32(data=1))
+    assert middleware.asked == asked
+    line = "a message on /plate/touch was not published: Failed to publish: cannot publish data\n"
+    assert (line in capfd.readouterr().err) == (asked <= refused)
+
+
+def test_another_error_of_a_publisher_is_raised(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    publisher = graph.watcher.create_publisher(Int32, "touch", 10, publisher_class=TolerantPublisher)
+    middleware = Middleware(1, "the context is invalid")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    with pytest.raises(rclpy_implementation.RCLError, match="the context is invalid"):
+        publisher.publish(Int32(data=1))

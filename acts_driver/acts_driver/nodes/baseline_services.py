@@ -30,7 +30,8 @@ from acts_driver.settings import DriverSettings
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.clocks import steady_timer
 from acts_ros.messages import set_stamp
-from acts_ros.qos import LATCHED, overridable
+from acts_ros.publishers import published
+from acts_ros.qos import LATCHED
 
 # Of what is published, and of a layout that is being read.
 _PERIOD_S = 1.0
@@ -75,7 +76,7 @@ class BaselineServices:
         # Serial numbers of the board that is read, and of that of the baseline; 0 where not known.
         self._board_id = self._baseline_board_id = 0
         self._problem_told = ""
-        self._publisher = node.create_publisher(BaselineMessage, "baseline", **overridable(LATCHED))
+        self._publisher = node.create_publisher(BaselineMessage, "baseline", **published(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
         # Nobody is answered yet: a slow file has all the time it needs.

@@ -16,7 +16,8 @@ from acts_core.wire import BoardSettings
 from acts_core.words import counted
 from acts_driver.board import BoardSession, BoardStatus, settings_in_words, version_in_words
 from acts_msgs.msg import BoardState
-from acts_ros.qos import LATCHED, overridable
+from acts_ros.publishers import published
+from acts_ros.qos import LATCHED
 
 
 class BoardInterface:
@@ -36,7 +37,7 @@ class BoardInterface:
         self._node = node
         self._frame_id = frame_id
         self._frames = frames
-        self._publisher = node.create_publisher(BoardState, "board", **overridable(LATCHED))
+        self._publisher = node.create_publisher(BoardState, "board", **published(LATCHED))
         node.create_service(Trigger, "~/query_board", self._on_query)
         self.session: BoardSession | None = None
 

@@ -14,7 +14,8 @@ from acts_core.wire import BoardImage, BoardObject, confidence_of
 from acts_driver.board import BoardResult
 from acts_msgs.msg import ObjectClass
 from acts_ros.messages import set_stamp
-from acts_ros.qos import STREAM, overridable
+from acts_ros.publishers import published
+from acts_ros.qos import STREAM
 
 
 class BoardTopics:
@@ -30,8 +31,8 @@ class BoardTopics:
 
     def __init__(self, node: LifecycleNode, frame_id: str) -> None:
         self._frame_id = frame_id
-        self._images = node.create_publisher(Image, "board_image", **overridable(STREAM))
-        self._objects = node.create_publisher(ObjectClass, "board_object", **overridable(STREAM))
+        self._images = node.create_publisher(Image, "board_image", **published(STREAM))
+        self._objects = node.create_publisher(ObjectClass, "board_object", **published(STREAM))
 
     def publish(self, result: BoardResult, stamp_ns: int) -> None:
         """Publish one result with the stamp of its frame [ns]."""

@@ -35,7 +35,8 @@ from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import SamplesMessage, skin_frame
 from acts_ros.parameters import declare, node_options
-from acts_ros.qos import STREAM, overridable
+from acts_ros.publishers import published
+from acts_ros.qos import STREAM
 
 FrameConsumer = Callable[[list[tuple[SampleFrame, int]], str], None]
 """See `DriverNode.consumers`."""
@@ -87,7 +88,7 @@ class DriverNode(LifecycleNode):
         self._board = BoardInterface(self, frame_id, self._frames_in_words)
         # Not made in on_configure: subscribers then are matched before the first frame.
         self._topics = BoardTopics(self, frame_id)
-        self._publisher = self.create_publisher(TactileSamples, "samples", **overridable(STREAM))
+        self._publisher = self.create_publisher(TactileSamples, "samples", **published(STREAM))
         self._diagnostics = DiagnosticsReporter(
             self, self._what, self._make_report, only_publishers=("samples", "baseline")
         )

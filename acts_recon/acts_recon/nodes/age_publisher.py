@@ -12,6 +12,7 @@ from sensor_msgs.msg import Image
 from acts_recon.methods import Recovery
 from acts_ros import qos
 from acts_ros.messages import ImageFields, write_image
+from acts_ros.publishers import published
 
 
 class AgePublisher:
@@ -23,7 +24,7 @@ class AgePublisher:
     """
 
     def __init__(self, node: Node) -> None:
-        self._publisher = node.create_publisher(Image, "view/age", **qos.overridable(qos.VIEW))
+        self._publisher = node.create_publisher(Image, "view/age", **published(qos.VIEW))
         self.is_wanted = False
         """Whether somebody listens."""
 

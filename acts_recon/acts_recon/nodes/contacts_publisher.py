@@ -21,6 +21,7 @@ from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
 from acts_ros.messages import ContactsFields, write_contacts
+from acts_ros.publishers import published
 
 # Within 4 ms a contact that slides at 1 m/s moves by a taxel.
 _VIEWED_RATE_HZ = 250.0
@@ -47,9 +48,9 @@ class ContactsPublisher(FramePublisher):
     def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
         self._recovery = recovery
         self._tracker = BlobTracker(recovery.geometry, recovery.response, settings.blob_config(), recovery.borders)
-        self._publisher = node.create_publisher(Contacts, "contacts", **qos.overridable(qos.STREAM))
-        self._view_publisher = node.create_publisher(Contacts, "view/contacts", **qos.overridable(qos.VIEW))
-        self._marker_publisher = node.create_publisher(MarkerArray, "contacts_view", **qos.overridable(qos.VIEW))
+        self._publisher = node.create_publisher(Contacts, "contacts", **published(qos.STREAM))
+        self._view_publisher = node.create_publisher(Contacts, "view/contacts", **published(qos.VIEW))
+        self._marker_publisher = node.create_publisher(MarkerArray, "contacts_view", **published(qos.VIEW))
         self._viewed_limit = RateLimit(_VIEWED_RATE_HZ)
         self._send = False
 

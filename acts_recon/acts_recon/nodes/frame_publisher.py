@@ -17,6 +17,7 @@ from acts_core.runtime import RateLimit
 from acts_recon.contacts import Contact
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
+from acts_ros.publishers import published
 
 
 class RecoveredFrame(NamedTuple):
@@ -97,7 +98,7 @@ class TopicPublisher(FramePublisher):
     """
 
     def __init__(self, node: Node, kind: type, topic: str, settings: ReconstructionConfig) -> None:
-        self._publisher = node.create_publisher(kind, topic, **qos.overridable(qos.STREAM))
+        self._publisher = node.create_publisher(kind, topic, **published(qos.STREAM))
         self._limit = RateLimit(self._rate_hz(settings))
 
     def look_for_subscribers(self) -> None:

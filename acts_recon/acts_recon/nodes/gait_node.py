@@ -31,6 +31,7 @@ from acts_ros.executor import run
 from acts_ros.messages import ContactFields, read_contact, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
+from acts_ros.publishers import published
 
 _PERIOD_S = 0.02
 # At 1 kHz: how long the node may be held up before contacts are lost [ms].
@@ -74,8 +75,8 @@ class GaitNode(PollingNode):
             for foot, name in enumerate((settings.left, settings.right))
             if name
         }
-        self._steps_publisher = self.create_publisher(FootStep, "steps", **qos.overridable(qos.STATE))
-        self._gait_publisher = self.create_publisher(GaitMessage, "gait", **qos.overridable(qos.STATE))
+        self._steps_publisher = self.create_publisher(FootStep, "steps", **published(qos.STATE))
+        self._gait_publisher = self.create_publisher(GaitMessage, "gait", **published(qos.STATE))
         # Seconds since the first stamp: times of a step are differences of small numbers.
         self._first_ns: int | None = None
         self._received = dict.fromkeys(self._contacts, 0)

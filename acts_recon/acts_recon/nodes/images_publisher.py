@@ -20,6 +20,7 @@ from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
 from acts_ros.messages import ImageFields, write_image
+from acts_ros.publishers import published
 
 
 class ImagesPublisher(FramePublisher):
@@ -40,11 +41,11 @@ class ImagesPublisher(FramePublisher):
     def __init__(self, node: Node, settings: ReconstructionConfig, recovery: Recovery) -> None:
         self._settings = settings
         self._recovery = recovery
-        self._raw_publisher = node.create_publisher(Image, "image_raw", **qos.overridable(qos.STREAM))
-        self._confidence_publisher = node.create_publisher(Image, "confidence", **qos.overridable(qos.STREAM))
-        self._view_publisher = node.create_publisher(Image, "image", **qos.overridable(qos.VIEW))
-        self._view_raw_publisher = node.create_publisher(Image, "view/image_raw", **qos.overridable(qos.VIEW))
-        self._view_confidence_publisher = node.create_publisher(Image, "view/confidence", **qos.overridable(qos.VIEW))
+        self._raw_publisher = node.create_publisher(Image, "image_raw", **published(qos.STREAM))
+        self._confidence_publisher = node.create_publisher(Image, "confidence", **published(qos.STREAM))
+        self._view_publisher = node.create_publisher(Image, "image", **published(qos.VIEW))
+        self._view_raw_publisher = node.create_publisher(Image, "view/image_raw", **published(qos.VIEW))
+        self._view_confidence_publisher = node.create_publisher(Image, "view/confidence", **published(qos.VIEW))
         self._ages = AgePublisher(node)
         self._series = SeriesPublisher(node)
         self._raw_limit = RateLimit(settings.image_raw_rate_hz)

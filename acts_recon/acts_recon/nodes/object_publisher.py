@@ -17,6 +17,7 @@ from acts_recon.classifiers import ObjectRecogniser
 from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
+from acts_ros.publishers import published
 
 _VIEWED = "view/object"
 
@@ -35,8 +36,8 @@ class ObjectPublisher(FramePublisher):
     """
 
     def __init__(self, node: Node, settings: ReconstructionConfig, recogniser: ObjectRecogniser) -> None:
-        self._publisher = node.create_publisher(ObjectClass, "object", **qos.overridable(qos.STREAM))
-        self._view_publisher = node.create_publisher(ObjectClass, _VIEWED, **qos.overridable(qos.VIEW))
+        self._publisher = node.create_publisher(ObjectClass, "object", **published(qos.STREAM))
+        self._view_publisher = node.create_publisher(ObjectClass, _VIEWED, **published(qos.VIEW))
         self._limit = RateLimit(settings.object_rate_hz)
         self._recogniser = recogniser
         self._message = ObjectClass()

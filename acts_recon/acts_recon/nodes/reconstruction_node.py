@@ -48,6 +48,7 @@ from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
+from acts_ros.publishers import published
 
 _COMPILING = "compiling: this takes long the first time on a machine, and with another kind of skin"
 _SUBSCRIBERS_PERIOD_S = 0.2
@@ -102,8 +103,8 @@ class ReconstructionNode(Node):
             self._pipeline = FramePipeline(self._settings, self._forget)
             self._recovery = self._pipeline.recovery
             self._parts = self._make_parts()
-        self._contact_publisher = self.create_publisher(ContactMessage, "contact", **qos.overridable(qos.STREAM))
-        self._cop_publisher = self.create_publisher(PointStamped, "cop", **qos.overridable(qos.STREAM))
+        self._contact_publisher = self.create_publisher(ContactMessage, "contact", **published(qos.STREAM))
+        self._cop_publisher = self.create_publisher(PointStamped, "cop", **published(qos.STREAM))
         # Filled anew for every frame: making messages costs more than sending them.
         self._header = Header()
         self._cop = PointStamped()

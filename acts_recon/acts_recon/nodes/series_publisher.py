@@ -15,6 +15,7 @@ from acts_msgs.msg import ContactSeries
 from acts_recon.contacts import Contact
 from acts_ros import qos
 from acts_ros.messages import ContactFields, SeriesFields, write_series
+from acts_ros.publishers import published
 
 _LONGEST = 1024
 
@@ -31,7 +32,7 @@ class SeriesPublisher:
     """
 
     def __init__(self, node: Node) -> None:
-        self._publisher = node.create_publisher(ContactSeries, "view/contact_series", **qos.overridable(qos.VIEW))
+        self._publisher = node.create_publisher(ContactSeries, "view/contact_series", **published(qos.VIEW))
         self._stamps_ns: list[int] = []
         self._force_n: list[float] = []
         self._delay_s: list[float] = []

@@ -23,6 +23,7 @@ import weakref
 from acts_core import errors
 from acts_ros.executor import run
 from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
 class Litter:
@@ -45,7 +46,9 @@ class Example(Node):
 
     def tick(self):
         self.ticks += 1
-        if self.ticks == 3:
+        if self.ticks == 3 and "unsent" in sys.argv:
+            raise rclpy_implementation.RCLError("failed to send response: cannot publish data, at x.cpp:68")
+        if self.ticks == (9 if "unsent" in sys.argv else 3):
             print("ticking", flush=True)
 
     def begin(self):
@@ -97,6 +100,19 @@ def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
         process.send_signal(number)
         output, errors = process.communicate(timeout=60)
     assert (output, errors) == ("closed\n", "")
+    assert process.returncode == 0
+
+
+def test_an_answer_that_cannot_be_sent_is_told_and_ends_nothing() -> None:
+    with started("unsent") as process:
+        assert process.stdout is not None
+        for words in ("begun", "ticking"):
+            assert process.stdout.readline() == f"{words}\n"
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+    assert output == "closed\n"
+    assert "[WARN]" in errors
+    assert "[acts_ros]: failed to send response: cannot publish data\n" in errors
     assert process.returncode == 0
 
 

@@ -32,6 +32,7 @@ from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options
+from acts_ros.publishers import TolerantPublisher
 from acts_sim.ball.joint_follower import JointFollower, JointSource
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 from acts_sim.ball.world_loop import STEP_NS, LoopStatistics, WorldLoop
@@ -85,7 +86,7 @@ class BallWorld(Node):
         keep_system_clock(self, "robot, ball and board are simulated as fast as real ones, and share the steady clock")
         self._settings = settings
         self._frame_id = skin_frame(self, settings.frame_id)
-        self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE)
+        self._truth = self.create_publisher(PointStamped, "ball/truth", qos.STATE, publisher_class=TolerantPublisher)
         self._message = PointStamped()
         self._message.header.frame_id = self._frame_id
         self._steps = 0

@@ -21,6 +21,7 @@ from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.messages import header_of, message_of, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
+from acts_ros.publishers import published
 from acts_skins.contacts.alignment import Aligned, AlignedSkin, Aligner, AlignmentConfig, Counters, SkinState
 from acts_skins.contacts.fixed_rate_thread import FixedRateThread
 from acts_skins.contacts.messages import CONTACT_TYPES, skin_contact, touches
@@ -73,7 +74,7 @@ class SkinContactsNode(PollingNode):
             name: self.create_raw_polled_subscription(self._kind, f"{name}/{settings.topic}", qos.STREAM, depth=depth)
             for name in self._placements
         }
-        self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **qos.overridable(qos.STREAM))
+        self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **published(qos.STREAM))
         self._clock = self.get_clock()
         self._there: set[str] = set()
         self._refused: Counter[tuple[str, str]] = Counter()

@@ -15,6 +15,7 @@ from rclpy.node import Node
 from acts_core.settings import setting, validate
 from acts_ros.clocks import steady_timer
 from acts_ros.parameters import declare, node_options
+from acts_ros.publishers import TolerantPublisher
 from acts_skins.overview.aggregate import Aggregate, Status
 from acts_skins.skins_file import skins_of
 
@@ -44,8 +45,12 @@ class SkinDiagnosticsNode(Node):
         names = [skin.name for skin in skins_of(settings.skins_file).skins]
         namespace = self.get_namespace().strip("/")
         self._aggregate = Aggregate(names, f"{namespace}/" if namespace else "", stale_after_s=settings.stale_after_s)
-        self._array_publisher = self.create_publisher(DiagnosticArray, "/diagnostics_agg", 10)
-        self._state_publisher = self.create_publisher(DiagnosticStatus, "/diagnostics_toplevel_state", 10)
+        self._array_publisher = self.create_publisher(
+            DiagnosticArray, "/diagnostics_agg", 10, publisher_class=TolerantPublisher
+        )
+        self._state_publisher = self.create_publisher(
+            DiagnosticStatus, "/diagnostics_toplevel_state", 10, publisher_class=TolerantPublisher
+        )
         self.create_subscription(DiagnosticArray, "/diagnostics", self._take, _DEPTH)
         steady_timer(self, _PERIOD_S, self._publish)
 

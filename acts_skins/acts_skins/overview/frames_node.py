@@ -17,6 +17,7 @@ from rclpy.node import Node
 from acts_core.settings import setting, validate
 from acts_ros import qos
 from acts_ros.parameters import declare, node_options
+from acts_ros.publishers import TolerantPublisher
 from acts_skins.frame_tree import Pose
 from acts_skins.skins_file import skins_of
 
@@ -45,14 +46,18 @@ class SkinFramesNode(Node):
         # Kept: late joiners get the last message only while its publisher exists.
         self._pose_publishers = []
         for skin in skins_file.skins:
-            publisher = self.create_publisher(TransformStamped, f"{skin.name}/pose", qos.LATCHED)
+            publisher = self.create_publisher(
+                TransformStamped, f"{skin.name}/pose", qos.LATCHED, publisher_class=TolerantPublisher
+            )
             publisher.publish(transforms[skin.name])
             self._pose_publishers.append(publisher)
         message_class = _tf_message_class()
         if message_class is None:
             self.get_logger().warning("tf2_msgs is not installed: no /tf_static; the poses are on the topics SKIN/pose")
             return
-        self._tf_publisher = self.create_publisher(message_class, "/tf_static", qos.LATCHED)
+        self._tf_publisher = self.create_publisher(
+            message_class, "/tf_static", qos.LATCHED, publisher_class=TolerantPublisher
+        )
         self._tf_publisher.publish(message_class(transforms=list(transforms.values())))
 
 

@@ -17,6 +17,7 @@ from acts_core.errors import RecordingError
 from acts_ros.bags import qos
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import Bag
+from acts_ros.publishers import TolerantPublisher
 
 _ACKNOWLEDGE_S = 1.0
 # A pause that nobody who plays a bag takes for its end [s].
@@ -89,7 +90,7 @@ class Player:
                 say(f"not played: {topic}: {error}")
                 continue
             profile = qos.for_publisher(bag.recorded_qos(topic), bag.message_count(topic))
-            self._publishers[topic] = node.create_publisher(kind, topic, profile)
+            self._publishers[topic] = node.create_publisher(kind, topic, profile, publisher_class=TolerantPublisher)
         if not self._publishers:
             raise RecordingError("the bag has no topic that can be played")
         self._from_ns = self._begin_ns(offset_s) if offset_s else None

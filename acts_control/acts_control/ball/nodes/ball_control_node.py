@@ -36,6 +36,7 @@ from acts_ros.executor import run
 from acts_ros.log import LoggedChanges, log_of
 from acts_ros.messages import ns_of, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
+from acts_ros.publishers import TolerantPublisher
 from acts_ros.qos import STATE, STREAM
 
 # Nothing older than this means anything; it stands for "never" in the status.
@@ -100,8 +101,12 @@ class BallControlNode(Node):
         self._status.header.frame_id = frame_id
         self._tilt = Vector3Stamped()
         self._tilt.header.frame_id = frame_id
-        self._status_publisher = self.create_publisher(BalanceStatus, STATUS_TOPIC, STATE)
-        self._tilt_publisher = self.create_publisher(Vector3Stamped, TILT_TOPIC, STREAM)
+        self._status_publisher = self.create_publisher(
+            BalanceStatus, STATUS_TOPIC, STATE, publisher_class=TolerantPublisher
+        )
+        self._tilt_publisher = self.create_publisher(
+            Vector3Stamped, TILT_TOPIC, STREAM, publisher_class=TolerantPublisher
+        )
         clock = self.get_clock()
         robot = make(settings)
         self._loop = ControlLoop(settings, robot, lambda: clock.now().nanoseconds, self._on_step)

@@ -33,6 +33,7 @@ from acts_ros.log import STEADY
 from acts_ros.messages import ns_of, read_contact, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.polled import PollingNode
+from acts_ros.publishers import TolerantPublisher
 from acts_ros.qos import STATE, STREAM
 
 _STATISTICS_PERIOD_S = 1.0
@@ -101,8 +102,10 @@ class BallStateNode(PollingNode):
         self._clock = self.get_clock()
         self._interval_start_s = time.monotonic()
         self._reported = 0
-        self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE)
-        self._statistics_publisher = self.create_publisher(StreamStatistics, STATISTICS_TOPIC, STATE)
+        self._state_publisher = self.create_publisher(BallState, STATE_TOPIC, STATE, publisher_class=TolerantPublisher)
+        self._statistics_publisher = self.create_publisher(
+            StreamStatistics, STATISTICS_TOPIC, STATE, publisher_class=TolerantPublisher
+        )
         self._contacts = self.create_raw_polled_subscription(Contact, CONTACT_TOPIC, STREAM, depth=_CONTACTS)
         if is_driven:
             self._timer = steady_timer(self, _UNDRIVEN_S, self._update_undriven)

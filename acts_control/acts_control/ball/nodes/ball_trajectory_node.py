@@ -28,6 +28,7 @@ from acts_ros.composition import parameters_from
 from acts_ros.executor import run
 from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
+from acts_ros.publishers import TolerantPublisher
 from acts_ros.qos import STATE
 
 # A status older than this says nothing any more.
@@ -84,7 +85,9 @@ class BallTrajectoryNode(Node):
         self._finished = False
         self._message = BallReference()
         self._message.header.frame_id = skin_frame(self, settings.frame_id)
-        self._publisher = self.create_publisher(BallReference, REFERENCE_TOPIC, STATE)
+        self._publisher = self.create_publisher(
+            BallReference, REFERENCE_TOPIC, STATE, publisher_class=TolerantPublisher
+        )
         if not is_driven:
             self.create_subscription(BalanceStatus, STATUS_TOPIC, self._on_status, STATE)
         self._timer = steady_timer(self, _UNDRIVEN_S if is_driven else 1.0 / settings.publish_rate_hz, self._on_timer)

@@ -32,7 +32,7 @@ class CmdLeapBus:
     ----------
     hand : HandDescription
     publish : callable
-        Takes the motors' angles, in the order of their IDs [rad].
+        Takes the motors' angles, in the order of their IDs [rad]; raises `HandError` where they are not sent.
 
     Raises
     ------
@@ -75,12 +75,13 @@ class CmdLeapBus:
         Raises
         ------
         HandError
-            When an angle is not finite, or their number is wrong: nothing is sent then.
+            When an angle is not finite, their number is wrong, or they are not published: nothing is sent then.
         """
         joints = self._hand.joints
-        q = finite_angles(q_rad, len(joints))
-        self._q = tuple(joint.clipped(angle) for joint, angle in zip(joints, q, strict=True))
-        self._publish([joints[k].to_motor_rad(self._q[k]) for k in self._order])
+        finite = finite_angles(q_rad, len(joints))
+        q = tuple(joint.clipped(angle) for joint, angle in zip(joints, finite, strict=True))
+        self._publish([joints[k].to_motor_rad(q[k]) for k in self._order])
+        self._q = q
 
     def recover(self, joint: int) -> None:
         """Nothing can be done from here."""

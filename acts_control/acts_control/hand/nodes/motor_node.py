@@ -8,12 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase, PendingAnswer
 from acts_control.hand.description import HandDescription, hand_description
-from acts_control.hand.motors import MOTORS, BusConfig, HandBus, HandReading, make_motors
+from acts_control.hand.motors import MOTORS, BusConfig, HandBus, HandError, HandReading, make_motors
 from acts_control.hand.nodes.cmd_leap import TORQUE_STAYS, CmdLeapBus
 from acts_control.hand.nodes.torque_services import TorqueServices
 from acts_core.runtime import RealtimeConfig, enter_realtime
@@ -22,7 +23,9 @@ from acts_ros.clocks import Stalls, keep_system_clock
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
 from acts_ros.log import log_of
 from acts_ros.messages import check_frame_id
+from acts_ros.middleware import reason_of
 from acts_ros.polled import PollingNode
+from acts_ros.publishers import TolerantPublisher
 from acts_ros.qos import STATE
 
 _BASE = "none"
@@ -61,8 +64,16 @@ def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> Hand
     """The motors that the settings name."""
     if settings.interface != _CMD_LEAP:
         return make_motors(settings.interface, hand, settings)
+    # Not a tolerant one: the loop has to know which goals were sent.
     publisher = node.create_publisher(JointState, _CMD_LEAP, STATE)
-    return CmdLeapBus(hand, lambda angles_rad: publisher.publish(JointState(position=angles_rad)))
+
+    def send(angles_rad: list[float]) -> None:
+        try:
+            publisher.publish(JointState(position=angles_rad))
+        except rclpy_implementation.RCLError as error:
+            raise HandError(f"{publisher.topic_name}: {reason_of(error)}") from error
+
+    return CmdLeapBus(hand, send)
 
 
 class MotorNode(PollingNode):
@@ -87,7 +98,7 @@ class MotorNode(PollingNode):
         self._states = JointState()
         self._states.header.frame_id = settings.frame_of(self.hand)
         self._states.name = self.hand.names
-        self._publisher = self.create_publisher(JointState, "joint_states", STATE)
+        self._publisher = self.create_publisher(JointState, "joint_states", STATE, publisher_class=TolerantPublisher)
         bus = make_bus(self, self.hand, settings)
         # The first angles that a new node sends open the hand, and what it holds then falls: that has to be asked for.
         config = replace(settings, autostart=False) if settings.interface == _CMD_LEAP else settings

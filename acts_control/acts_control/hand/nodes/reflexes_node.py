@@ -44,6 +44,7 @@ from acts_ros.log import STEADY, LoggedChanges
 from acts_ros.messages import RegionsFields, read_regions, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PolledSubscription
+from acts_ros.publishers import TolerantPublisher
 from acts_ros.qos import STATE, STREAM
 
 _LONG_AGO_S = 1e6
@@ -178,10 +179,14 @@ class HandReflexesNode(MotorNode):
         self._status_lock = threading.Lock()
         self._status = HandStatus()
         self._status.header.frame_id = settings.frame_of(hand)
-        self._status_publisher = self.create_publisher(HandStatus, "hand/status", STATE)
+        self._status_publisher = self.create_publisher(
+            HandStatus, "hand/status", STATE, publisher_class=TolerantPublisher
+        )
         self._timing = HandTiming()
         self._timing.header.frame_id = settings.frame_of(hand)
-        self._timing_publisher = self.create_publisher(HandTiming, "hand/timing", STATE)
+        self._timing_publisher = self.create_publisher(
+            HandTiming, "hand/timing", STATE, publisher_class=TolerantPublisher
+        )
         regions = self.create_raw_polled_subscription(RegionContacts, "regions", STREAM, depth=_TOUCH_DEPTH)
         clock = self.get_clock()
         self._touched = TouchedHand(self._supervisor, regions, lambda: clock.now().nanoseconds, self._publish_status)

@@ -9,6 +9,7 @@ import math
 import signal
 import threading
 import time
+from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -16,15 +17,18 @@ from dynamixel_bus import DEADLINE_S, TIMEOUT_MS, Bus, torques
 from hand_loop_rig import MadeBus
 from hand_node_rig import node_and_user
 from peers import Peers
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from waiting import wait_for
 
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.motors import HandError
 from acts_control.hand.nodes import motor_node
-from acts_control.hand.nodes.hand_node import HandNode
+from acts_control.hand.nodes.hand_node import SETTINGS, HandNode
 
 pytestmark = pytest.mark.slow
 
@@ -119,6 +123,48 @@ def test_what_was_commanded_while_the_program_stood_still_as_torque_came_on_is_n
     finally:
         may_go_on.set()
         node.close()
+        user.close()
+
+
+def test_joint_states_that_the_middleware_does_not_take_do_not_switch_the_hand_off(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    bus, refused, publish = MadeBus(), 0, Publisher.publish
+
+    def refuse(publisher: Publisher[Any], msg: Any) -> None:
+        nonlocal refused
+        if isinstance(msg, JointState):
+            refused += 1
+            raise rclpy_implementation.RCLError("Failed to publish: cannot publish data, at x.cpp:68")
+        publish(publisher, msg)
+
+    monkeypatch.setattr(Publisher, "publish", refuse)
+    monkeypatch.setattr(motor_node, "make_motors", lambda *_arguments: bus)
+    user = Peers(DOMAIN_ID, "user")
+    node = user.add(HandNode(context=user.context))
+    try:
+        node.begin()
+        user.until(lambda: len(bus.sent) > 20)
+        assert (node.loop.status.phase, bus.has_torque) == (HandPhase.ENABLED, True)
+        assert refused > 20
+    finally:
+        node.close()
+        user.close()
+
+
+def test_goals_that_the_middleware_does_not_take_count_as_not_sent(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_publisher: object, _msg: object) -> None:
+        raise rclpy_implementation.RCLError("Failed to publish: cannot publish data, at x.cpp:68")
+
+    user = Peers(CMD_LEAP_DOMAIN_ID, "user")
+    try:
+        bus = motor_node.make_bus(user.peer, LEAP_RIGHT, SETTINGS["hand"](interface="cmd_leap"))
+        bus.command([0.1] * 16)
+        monkeypatch.setattr(Publisher, "publish", refuse)
+        with pytest.raises(HandError, match=r"^/cmd_leap: Failed to publish: cannot publish data$"):
+            bus.command([0.2] * 16)
+        assert bus.read().q_rad == (0.1,) * 16
+    finally:
         user.close()
 
 
