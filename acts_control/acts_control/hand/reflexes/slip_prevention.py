@@ -6,8 +6,9 @@
 Slip is told by the regions (docs/slip.md). They look back over a window, so slip is told for a while after it has
 ceased; whether the pattern still moves is seen by its distance in the window still growing. All fingers that touch grip
 together, for one that grips alone pushes the object away. What was added is kept for a while, then taken back until a
-share of it is left, or to just above where the object last began to slip. Around something firm a goal comes to its
-limits (`StepRule`) before all of that is added: of each joint's goal no more is taken back than it has moved by.
+share is left of what was added since the object began to slip last, so that it is held by more than did not hold it.
+Around something firm a goal comes to its limits (`StepRule`) before all of that is added: of each joint's goal no more
+is taken back than it has moved by.
 
 Where weight shifts from one part of the skin to another, or a grip moves the object, a pattern moves as in a slip, but
 slowly and not far. For what is fragile, the first sign of a slip can be answered by a little of the grip
@@ -74,7 +75,9 @@ class SlipPreventionConfig:
     slip_ease_steps: float = setting(
         0.03, "steps by which the added grip is eased after that", minimum=0.0, maximum=5.0
     )
-    slip_kept_share: float = setting(0.6, "share of the added grip that is not eased", minimum=0.0, maximum=1.0)
+    slip_kept_share: float = setting(
+        0.6, "share of the grip added since the last slip began that is not eased", minimum=0.0, maximum=1.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -97,7 +100,7 @@ class SlipPreventionState:
     most : float
         Most that may be added for the present, in steps of a cycle at 60 Hz.
     added, peak, floor : float
-        Added grip now, the most of it, and where easing ends, in steps of a cycle at 60 Hz.
+        Added grip now, the most of it, and what it was at the last slip, in steps of a cycle at 60 Hz.
     is_slipping : bool
     goals : AddedGoals or None
         What that has made of the goals of the joints; None before the first slip.
@@ -125,17 +128,17 @@ class AddedGoals:
     """
 
     def __init__(self, goal_rad: Array) -> None:
-        self._from_rad = self._highest_rad = self._floor_rad = goal_rad
+        self._highest_rad = self._floor_rad = goal_rad
 
     def slips_again(self, goal_rad: Array) -> None:
-        """It did not hold with these: easing ends there."""
+        """It did not hold with these: easing ends above."""
         self._floor_rad = np.maximum(self._floor_rad, goal_rad)
 
     def may_be_eased(self, goal_rad: Array, kept_share: float) -> NDArray[np.bool_]:
         """Whose goals are still above what is kept; to be called in each step."""
         self._highest_rad = np.maximum(self._highest_rad, goal_rad)
-        kept_rad = self._from_rad + kept_share * (self._highest_rad - self._from_rad)
-        above: NDArray[np.bool_] = goal_rad > np.maximum(kept_rad, self._floor_rad)
+        kept_rad = self._floor_rad + kept_share * (self._highest_rad - self._floor_rad)
+        above: NDArray[np.bool_] = goal_rad > kept_rad
         return above
 
 
@@ -200,7 +203,8 @@ class SlipPrevention(Reflex):
         return on_m > config.slip_far_m or (is_soon and on_m > config.slip_soon_m)
 
     def _end(self) -> float:
-        return max(self.config.slip_kept_share * self.state.peak, self.state.floor)
+        state = self.state
+        return state.floor + self.config.slip_kept_share * (state.peak - state.floor)
 
     def _grown(self, sensed: Sensed) -> str:
         """A region in which the pattern moves on; empty where there is none."""

@@ -41,7 +41,7 @@ def test_all_fingers_that_touch_grip_up_while_the_object_moves_and_not_longer() 
     assert reflex.events == 1
 
 
-def test_the_added_grip_is_eased_slowly_to_a_share_and_not_below_where_it_slipped_again() -> None:
+def test_the_added_grip_is_eased_slowly_to_a_share_and_above_where_it_slipped_again() -> None:
     reflex = SlipPrevention(SlipPreventionConfig(slip_keep_s=0.5, slip_kept_share=0.5, slip_ease_steps=0.2))
     reflex.step(sensed(slipping("index_distal", 2e-4)))
     time_s = 0.0
@@ -55,6 +55,11 @@ def test_the_added_grip_is_eased_slowly_to_a_share_and_not_below_where_it_slippe
     reflex.step(sensed(slipping("index_distal", 2e-4), time_s=time_s))
     assert reflex.events == 2
     assert reflex.state.floor == pytest.approx(eased)
+    while time_s < 6.0:
+        time_s += DT_S
+        reflex.step(sensed(region("index_distal", 0.5), time_s=time_s))
+    assert reflex.state.peak > eased
+    assert reflex.state.added == pytest.approx((eased + reflex.state.peak) / 2)
 
 
 def test_no_more_is_eased_than_was_added_where_the_goals_could_not_follow() -> None:
