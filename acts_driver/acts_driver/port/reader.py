@@ -91,6 +91,9 @@ class Reader:
         self._is_asked = False
         # Before the next attempt to open the source.
         self._wait_s = 0.0
+        # The loss that was logged last; told again once bytes have come. And whether its end is yet to be logged.
+        self._told_loss = ""
+        self._tells_end = False
         self._caught_up = threading.Event()
         self.connected = False
         self.problem = ""
@@ -144,7 +147,9 @@ class Reader:
                 was_lost = True
                 self.problem = _told(error)
                 self._source.close()
-                self._log("warning", f"{self.problem}; trying again at least every {self._reconnect_s:g} s")
+                if self.problem != self._told_loss:
+                    self._told_loss, self._tells_end = self.problem, True
+                    self._log("warning", f"{self.problem}; trying again at least every {self._reconnect_s:g} s")
 
     def _open(self, was_lost: bool) -> bool:
         """Open the source, however long that takes; False when stopped meanwhile."""
@@ -162,6 +167,8 @@ class Reader:
                 self.reconnects += 1
                 if self._on_reconnect is not None:
                     self._on_reconnect()
+            if self._tells_end:
+                self._tells_end = False
                 self._log("info", f"port {self._source.name} is back after {time.monotonic() - begin:.2f} s")
             self.problem = ""
             self.connected = True
@@ -181,6 +188,7 @@ class Reader:
             if not data:
                 continue
             self._wait_s = 0.0
+            self._told_loss = ""
             if frames or has_results():
                 self._hand_on(frames, arrival_ns)
                 if self._realtime is not None:

@@ -172,14 +172,23 @@ class RecordedWaits(threading.Event):
 
 
 def test_a_port_that_opens_and_is_lost_at_once_is_opened_less_and_less_often() -> None:
-    source = Opens(6)
-    reader = Reader(source, StreamDecoder(), lambda frames, arrival_ns: None, reconnect_s=0.05)
+    source, told = Opens(6), []
+    reader = Reader(
+        source,
+        StreamDecoder(),
+        lambda frames, arrival_ns: None,
+        reconnect_s=0.05,
+        log=lambda level, message: told.append((level, message.partition(" after ")[0])),
+    )
     reader._stop = waits = RecordedWaits()
     reader.start()
     wait_for(lambda: source.left < 0, "the last opening")
     reader.stop()
     assert [wait_s for wait_s in waits.times_s if wait_s] == [0.02, 0.04, 0.05, 0.05, 0.05, 0.05]
     assert reader.reconnects == 6
+    # Once each, until bytes have come.
+    lost = "port a bad cable was lost; trying again at least every 0.05 s"
+    assert told == [("warning", lost), ("info", f"port {source.name} is back")]
 
 
 def test_unplugged_in_the_middle_of_a_frame_and_plugged_in_again(board: PtyBoard, collector: Collector) -> None:
