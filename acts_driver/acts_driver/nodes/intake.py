@@ -63,6 +63,7 @@ class Intake:
     ) -> None:
         size = (settings.rows, settings.cols)
         self._size = size
+        self._is_replay = settings.is_replay
         self._source = source
         self._consume = consume
         self._log = log
@@ -165,9 +166,14 @@ class Intake:
         self._wrong_size_told = self.stream.wrong_size_last
         rows, cols = self._wrong_size_told
         own_rows, own_cols = self._size
+        dropped = f"frames of {rows} x {cols} taxels, expected are {own_rows} x {own_cols}; they are dropped"
+        if self._is_replay:
+            remedy = f"set the parameters rows and cols to {rows} and {cols} (of a launch: rows:={rows} cols:={cols})"
+            self._log("error", f"{self._source.name} has {dropped}: {remedy}")
+            return
         self._log(
             "error",
-            f"the board sends frames of {rows} x {cols} taxels, expected are {own_rows} x {own_cols}; they are "
-            "dropped: set the parameters rows and cols; a simulated board reads no params file, it needs the launch "
-            f"arguments rows:={own_rows} cols:={own_cols}",
+            f"the board sends {dropped}: set the parameters rows and cols (of acts view: --size {rows} {cols}); a "
+            "simulated board reads no params file, it needs the launch arguments "
+            f"rows:={own_rows} cols:={own_cols}",
         )

@@ -107,6 +107,7 @@ def test_frames_of_many_sizes_do_not_fill_the_log(board: PtyBoard, rig: Rig, cap
     told = log.count("they are dropped: set the parameters rows and cols")
     # At first at once, then now and then.
     assert 1 <= told < 10
+    assert "set the parameters rows and cols (of acts view: --size 1 24)" in log
     assert log.count("a simulated board reads no params file, it needs the launch arguments rows:=32 cols:=32") == told
 
 

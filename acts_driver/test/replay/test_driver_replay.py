@@ -272,6 +272,18 @@ def test_a_missing_recording_is_reported_and_waited_for(rig: Rig, tmp_path: Path
     rig.spin_until(lambda: len(rig.samples) > 3, "messages")
 
 
+def test_a_recording_of_another_size_is_told_with_the_size_to_set(
+    rig: Rig, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = write_samples(tmp_path / "small.npz", [frame(k, rows=16, cols=24) for k in range(10)], rows=16, cols=24)
+    rig.start_driver(replay=path, replay_delay_s=0.0)
+    rig.status_until(lambda status: int(status.get("wrong_size", "0")) > 0, "the counts")
+    log = capfd.readouterr().err
+    assert f"recording {path} has frames of 16 x 24 taxels, expected are 32 x 32; they are dropped: set" in log
+    assert "set the parameters rows and cols to 16 and 24 (of a launch: rows:=16 cols:=24)" in log
+    assert "simulated board" not in log
+
+
 def test_parameters_of_a_recording_are_told_where_none_is_replayed() -> None:
     assert DriverSettings(replay_speed=2.0, replay_loop=False).unused == ("replay_speed", "replay_loop")
     assert DriverSettings(replay="touch", replay_speed=2.0).unused == ()
