@@ -67,7 +67,7 @@ def with_robots(own: type) -> type:
             )
         kind.config.__post_init__(self)
 
-    name = setting(next(iter(ROBOTS)), "what carries the plate", choices=tuple(ROBOTS))
+    name = setting("ur5e", "what carries the plate", choices=tuple(ROBOTS))
     bases = (own, *(kind.config for kind in ROBOTS.values()))
     namespace = {"__post_init__": check, "__doc__": own.__doc__}
     return make_dataclass(own.__name__, [("robot", str, name)], bases=bases, namespace=namespace, frozen=True)

@@ -53,3 +53,11 @@ def test_a_robot_with_a_parameter_that_another_has_is_refused(monkeypatch: pytes
     monkeypatch.setitem(ROBOTS, "other", kind)
     with pytest.raises(SettingsError, match="'level_q_rad' is declared 2 times"):
         with_robots(LoopConfig)
+
+
+def test_a_robot_whose_line_comes_first_is_not_the_default(monkeypatch: pytest.MonkeyPatch) -> None:
+    other = RobotKind(make_dataclass("Other", [], bases=(RobotConfig,), frozen=True), ROBOTS["ur5e"].make)
+    monkeypatch.setattr("acts_control.robots.registry.ROBOTS", {"other": other, **ROBOTS})
+    settings = with_robots(LoopConfig)
+    assert settings(robot="other").robot == "other"
+    assert settings().robot == "ur5e"

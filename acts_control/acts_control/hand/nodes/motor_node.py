@@ -40,7 +40,7 @@ class MotorSettings(RealtimeConfig, HandLoopConfig, BusConfig):
 
     hand: str = setting("leap_right", "the hand: leap_right, or the path of a .yaml file (docs/hand.md)")
     interface: str = setting(
-        next(iter(MOTORS)),
+        "dynamixel",
         "how the hand is moved: by motors of this make at port, or by the topic cmd_leap of the LEAP team's own node",
         choices=(*MOTORS, _CMD_LEAP),
     )

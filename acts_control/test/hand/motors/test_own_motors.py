@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import pty
 import re
@@ -200,6 +201,18 @@ def test_their_settings_become_parameters_of_both_nodes(servos: ModuleType) -> N
     for kind in (with_motors(MotorSettings), reflexes_node.settings_class()):
         assert describe(kind)["line_servos_timeout_s"].maximum == 1.0
         assert list(describe(kind)).count("port") == 1
+
+
+def test_motors_whose_line_comes_first_are_not_the_default(servos: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    from acts_control.hand import motors
+    from acts_control.hand.nodes import motor_node
+
+    monkeypatch.setattr(motors, "MOTORS", {"line_servos": MOTORS["line_servos"], **MOTORS})
+    anew = ModuleType("motor_node_anew")
+    monkeypatch.setitem(sys.modules, anew.__name__, anew)
+    exec(compile(inspect.getsource(motor_node), "motor_node.py", "exec", dont_inherit=True), vars(anew))
+    assert describe(anew.MotorSettings)["interface"].choices[0] == "line_servos"
+    assert motors.with_motors(anew.MotorSettings)().interface == "dynamixel"
 
 
 def test_a_setting_that_others_have_is_refused(servos: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
