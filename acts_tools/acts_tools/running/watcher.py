@@ -21,7 +21,7 @@ _PLAIN_REFRESH_S = 5.0
 class Watcher:
     """Processes messages ten times a second, and prints a status line.
 
-    On a terminal the line is updated in place; elsewhere one is printed every five seconds.
+    On a terminal the line is updated in place; elsewhere one is printed every five seconds. None that is empty.
 
     Parameters
     ----------
@@ -44,6 +44,7 @@ class Watcher:
         self._line = line
         self._live = sys.stdout.isatty()
         self._shown_s = 0.0
+        self._has_shown = False
 
     def until(self, condition: Callable[[], bool], timeout_s: float) -> bool:
         """Wait for a condition; return whether it became true in time.
@@ -64,7 +65,7 @@ class Watcher:
 
     def end(self) -> None:
         """End the status line."""
-        if self._live:
+        if self._live and self._has_shown:
             print()
 
     def _step(self) -> None:
@@ -79,4 +80,7 @@ class Watcher:
         if now_s - self._shown_s >= (_REFRESH_S if self._live else _PLAIN_REFRESH_S):
             self._shown_s = now_s
             line = self._line()
+            if not line:
+                return
+            self._has_shown = True
             print(f"\r\x1b[K{line}" if self._live else line, end="" if self._live else "\n", flush=True)
