@@ -51,8 +51,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--protocol", default="binary", help="protocol of the board: binary, raster_ascii or your own (binary)"
     )
-    parser.add_argument("--rows", type=side, default=32, help="rows of the array, with raster_ascii and --sim (32)")
-    parser.add_argument("--cols", type=side, default=32, help="columns of the array, with raster_ascii and --sim (32)")
+    parser.add_argument(
+        "--rows", type=side, default=32, help="rows of the array, with raster_ascii, your own and --sim (32)"
+    )
+    parser.add_argument(
+        "--cols", type=side, default=32, help="columns of the array, with raster_ascii, your own and --sim (32)"
+    )
     parser.add_argument(
         "--baud", type=whole(2400, 12_000_000), default=115200, help="baud rate; no effect on USB boards (115200)"
     )

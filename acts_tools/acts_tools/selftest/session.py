@@ -128,9 +128,12 @@ class BoardReader:
         seen: list[SampleFrame] = []
         self._read_while(lambda: len(seen) <= _SETTLE_FRAMES, lambda frame, arrival_ns: seen.append(frame), _SILENT_S)
         if not seen:
+            # Others do not report their size, and lines of another number of counts are no frames.
+            own = "a board of this --protocol, --rows and --cols"
+            kind = "an ACTS board (--protocol)" if self._takes_commands else own
             raise PortError(
                 f"no frames from {self.name} within {_SILENT_S:g} s: {self._decoder.last_error or 'it is silent'}; "
-                "is it an ACTS board (--protocol), and is it running?"
+                f"is it {kind}, and is it running?"
             )
         return seen[-1]
 

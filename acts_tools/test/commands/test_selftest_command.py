@@ -75,6 +75,15 @@ def test_a_board_that_takes_no_commands_is_tested_with_what_it_sends(tmp_path: P
     assert "address bit 2 (pin 35)" in found["multiplexer"]["text"]
 
 
+def test_a_board_of_another_size_than_is_given_is_told_by_the_options(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with virtual_board(tmp_path, "--protocol", "raster_ascii", "--rows", "8", "--cols", "5", "--m", "40") as board:
+        assert main(["selftest", str(board.link), "--protocol", "raster_ascii", "--no-touch"]) == 1
+    said = capsys.readouterr().err
+    assert "is it a board of this --protocol, --rows and --cols, and is it running?" in said
+
+
 def test_the_board_gets_its_settings_back_even_when_interrupted(tmp_path: Path) -> None:
     with virtual_board(tmp_path, "--scheme", "tracking", "--rate-hz", "500") as board:
 
