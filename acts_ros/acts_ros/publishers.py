@@ -27,7 +27,7 @@ _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 
 # Fast DDS waits 0.1 s for each.
 _ATTEMPTS_LATCHED = 3
-# Shortest time between two lines in the log.
+# Shortest time between two lines in the log about a topic.
 _PERIOD_S = 1.0
 
 
@@ -37,6 +37,11 @@ class TolerantPublisher(Publisher):
     Fast DDS gives a message up when its own threads do not let go of a writer within 0.1 s, as on a machine that has no
     CPU time for them. Raised, this would end the node, or a thread that holds a robot or a hand.
     """
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        # Kept: when a line was written last is known to this logger only, not to another one of its name.
+        self._log = get_logger("acts_ros")
 
     def publish(self, msg: Any) -> None:
         """Publish; one that is kept for late joiners, and does not come again soon, is tried a few times."""
@@ -48,7 +53,7 @@ class TolerantPublisher(Publisher):
                 if not str(error).startswith(NOT_SENT):
                     raise
                 if not left:
-                    get_logger("acts_ros").warning(
+                    self._log.warning(
                         f"a message on {self.topic_name} was not published: {reason_of(error)}",
                         throttle_duration_sec=_PERIOD_S,
                         throttle_time_source_type=STEADY,

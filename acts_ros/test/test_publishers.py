@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -16,7 +17,6 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from std_msgs.msg import Int32
 
-from acts_ros import publishers
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
 from acts_ros.publishers import SAME_NAME_S, OnlyPublishers, TolerantPublisher, published
 from acts_ros.qos import LATCHED, STREAM
@@ -115,12 +115,26 @@ def test_a_message_that_the_middleware_does_not_take_is_told_and_ends_nothing(
     publisher = graph.watcher.create_publisher(Int32, "touch", **published(profile))
     middleware = Middleware(refused, "Failed to publish: cannot publish data")
     monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
-    # Past the throttle of an earlier line.
-    monkeypatch.setattr(publishers, "_PERIOD_S", 0.0)
     publisher.publish(Int32(data=1))
     assert middleware.asked == asked
     line = "a message on /plate/touch was not published: Failed to publish: cannot publish data\n"
     assert (line in capfd.readouterr().err) == (asked <= refused)
+
+
+def test_of_each_topic_it_is_told_once_a_second(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    stream = graph.watcher.create_publisher(Int32, "touch", **published(STREAM))
+    kept = graph.watcher.create_publisher(Int32, "board", **published(LATCHED))
+    middleware = Middleware(1000, "Failed to publish: cannot publish data")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    begin_s = time.monotonic()
+    for _ in range(100):
+        stream.publish(Int32(data=1))
+    kept.publish(Int32(data=1))
+    lines = capfd.readouterr().err
+    assert 1 <= lines.count("a message on /plate/touch was not published") <= 1 + time.monotonic() - begin_s
+    assert lines.count("a message on /plate/board was not published") == 1
 
 
 def test_another_error_of_a_publisher_is_raised(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
