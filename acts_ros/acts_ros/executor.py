@@ -151,7 +151,7 @@ def _spin(executor: Executor, signals: StopSignals) -> None:
         try:
             executor.spin_until_future_complete(stopped, timeout_sec=_SPIN_S)
         except rclpy_implementation.RCLError as error:
-            # An answer of a service, or one of the messages that rclpy publishes itself.
+            # An answer of a service, a question to one, or one of the messages that rclpy publishes itself.
             if not str(error).startswith(middleware.NOT_SENT):
                 raise
             get_logger("acts_ros").warning(middleware.reason_of(error))

@@ -45,8 +45,8 @@ HIGHEST_DOMAIN = 232
 # The place in the source of ROS that its error messages contain.
 _SOURCE_PLACE = re.compile(r", at \S+:\d+")
 
-NOT_SENT = ("Failed to publish", "failed to send response")
-"""How rclpy's errors begin of a message, or an answer, that the middleware did not take."""
+NOT_SENT = ("Failed to publish", "failed to send response", "failed to send request")
+"""How rclpy's errors begin of a message, an answer or a question that the middleware did not take."""
 _NO_LOG = "failed to initialize logging"
 
 

@@ -18,11 +18,14 @@ from collections.abc import Iterator
 from copy import copy
 from typing import Any, Generic, TypeVar
 
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 
+from acts_ros.middleware import NOT_SENT, reason_of
 from acts_ros.qos import overridable
 
 M = TypeVar("M")
@@ -81,8 +84,14 @@ class PolledService:
         return None if header is None else (request, header)
 
     def answer(self, response: Any, header: Any) -> None:
-        """Send the answer to the request that came with this header."""
-        self._service.send_response(response, header)
+        """Send the answer to the request that came with this header; logs where the middleware does not take it."""
+        try:
+            self._service.send_response(response, header)
+        except rclpy_implementation.RCLError as error:
+            # Raised, it would keep others who wait from their answers.
+            if not str(error).startswith(NOT_SENT):
+                raise
+            get_logger("acts_ros").warning(f"{self._service.srv_name}: {reason_of(error)}")
 
 
 class PollingNode(Node):

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 import pytest
 from peers import Peers
 from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.service import Service
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
@@ -94,6 +96,39 @@ def test_a_service_is_answered_when_the_answer_is_known(pair: Pair) -> None:
         service.answer(Trigger.Response(success=True, message=str(place)), header)
     pair.until(lambda: all(answer.done() for answer in answers))
     assert [answer.result().message for answer in answers] == ["0", "1"]
+
+
+def test_an_answer_that_the_middleware_does_not_take_keeps_nobody_else_from_theirs(
+    pair: Pair, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    service = pair.node.create_polled_service(Trigger, "later")
+    client = pair.peer.create_client(Trigger, "later")
+    pair.until(client.service_is_ready)
+    answers = [client.call_async(Trigger.Request()) for _ in range(2)]
+    headers: list[object] = []
+    refused: list[object] = []
+    send = Service.send_response
+
+    def refuse_first(one: Service, response: Trigger.Response, header: object) -> None:
+        if not refused:
+            refused.append(header)
+            raise rclpy_implementation.RCLError("failed to send response: cannot publish data, at x.cpp:68")
+        send(one, response, header)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Service, "send_response", refuse_first)
+
+    def are_there() -> bool:
+        taken = service.take()
+        if taken is not None:
+            headers.append(taken[1])
+        return len(headers) == 2
+
+    pair.until(are_there)
+    for header in headers:
+        service.answer(Trigger.Response(success=True), header)
+    pair.until(answers[1].done)
+    assert (answers[0].done(), refused) == (False, headers[:1])
+    assert "[acts_ros]: later: failed to send response: cannot publish data\n" in capfd.readouterr().err
 
 
 def test_the_time_of_reception_is_told(pair: Pair) -> None:

@@ -47,7 +47,7 @@ class Example(Node):
     def tick(self):
         self.ticks += 1
         if self.ticks == 3 and "unsent" in sys.argv:
-            raise rclpy_implementation.RCLError("failed to send response: cannot publish data, at x.cpp:68")
+            raise rclpy_implementation.RCLError(f"failed to send {sys.argv[-1]}: cannot publish data, at x.cpp:68")
         if self.ticks == (9 if "unsent" in sys.argv else 3):
             print("ticking", flush=True)
 
@@ -103,8 +103,9 @@ def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
     assert process.returncode == 0
 
 
-def test_an_answer_that_cannot_be_sent_is_told_and_ends_nothing() -> None:
-    with started("unsent") as process:
+@pytest.mark.parametrize("what", ["response", "request"])
+def test_an_answer_or_a_question_that_cannot_be_sent_is_told_and_ends_nothing(what: str) -> None:
+    with started("unsent", what) as process:
         assert process.stdout is not None
         for words in ("begun", "ticking"):
             assert process.stdout.readline() == f"{words}\n"
@@ -112,7 +113,7 @@ def test_an_answer_that_cannot_be_sent_is_told_and_ends_nothing() -> None:
         output, errors = process.communicate(timeout=60)
     assert output == "closed\n"
     assert "[WARN]" in errors
-    assert "[acts_ros]: failed to send response: cannot publish data\n" in errors
+    assert f"[acts_ros]: failed to send {what}: cannot publish data\n" in errors
     assert process.returncode == 0
 
 

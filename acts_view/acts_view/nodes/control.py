@@ -15,6 +15,7 @@ from typing import Any
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.client import Client
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Future
 from std_srvs.srv import Trigger
@@ -22,6 +23,7 @@ from std_srvs.srv import Trigger
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
+from acts_ros.middleware import reason_of
 from acts_view.recording.recording import Recording
 from acts_view.web.requests import STOPS, Answer, Request
 
@@ -172,7 +174,10 @@ class Control:
         client = self._clients.get(service)
         if client is None or not client.service_is_ready():
             raise ViewRequestError(f"{service} is not reached: has its node ended? If it has just begun, try again")
-        future = client.call_async(asked)
+        try:
+            future = client.call_async(asked)
+        except rclpy_implementation.RCLError as error:
+            raise ViewRequestError(f"{service} was not asked: {reason_of(error)}; ask again") from error
         call = _Call(client, future, answer, service, time.monotonic() + self._patience_s)
         self._calls.append(call)
 
@@ -204,7 +209,10 @@ class Control:
                 ]
                 self._settings[driver] = dict(zip(_PARAMETERS, values, strict=True))
 
-        self._asked[driver] = client.call_async(GetParameters.Request(names=list(_PARAMETERS)))
+        try:
+            self._asked[driver] = client.call_async(GetParameters.Request(names=list(_PARAMETERS)))
+        except rclpy_implementation.RCLError:
+            return  # the next look asks again
         self._asked[driver].add_done_callback(on_done)
 
     def _is_there(self, service: str, kind: type) -> bool:

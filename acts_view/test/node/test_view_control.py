@@ -13,7 +13,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import GetParameters
+from rclpy.client import Client
 from rclpy.context import Context
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.service import Service
@@ -231,6 +234,38 @@ def test_what_was_set_is_what_is_told_from_then_on(begin: Callable[..., Bench]) 
             assert header_where(client, lambda header, value=value: header.get("id") == value)["done"]  # type: ignore[misc]
             told = header_where(client, lambda header: "/plate" in header.get("settings", {}))
             assert told["settings"]["/plate"]["m"] == value
+
+
+def test_a_page_is_told_that_a_service_was_not_asked_and_asks_again(
+    begin: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = begin(control=True)
+    refused: list[object] = []
+    call_async = Client.call_async
+
+    def refuse_first_of_each(one: Client, asked: object) -> Any:
+        if type(asked) not in refused:
+            refused.append(type(asked))
+            raise rclpy_implementation.RCLError("failed to send request: cannot publish data, at x.cpp:68")
+        return call_async(one, asked)
+
+    with bench.connect() as client:
+        header_where(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 55)
+        header_where(client, lambda header: ["stop_balancing", ""] in header.get("offers", []))
+        monkeypatch.setattr(Client, "call_async", refuse_first_of_each)
+        client.send('{"id":1,"do":"stop_balancing"}')
+        answer = header_where(client, lambda header: header.get("id") == 1)
+        assert (answer["done"], bench.called) == (False, [])
+        assert answer["text"] == (
+            "/ball_control/stop was not asked: failed to send request: cannot publish data; ask again"
+        )
+        client.send('{"id":2,"do":"stop_balancing"}')
+        assert header_where(client, lambda header: header.get("id") == 2)["done"]
+        assert bench.called == ["ball_control/stop"]
+        # The look for the settings, too, comes again.
+        bench.driver.set_parameters([Parameter("m", value=70)])
+        header_where(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 70)
+        assert set(refused) == {Trigger.Request, GetParameters.Request}
 
 
 @needs_browser
