@@ -115,6 +115,8 @@ class DriverNode(LifecycleNode):
             return FAILURE
         self._problem = ""
         self._source, self._next_source = source, None
+        # The layout's file may be another than when it was read last; for the board it is read now.
+        self._baseline.arrange(settings)
         self.intake = Intake(settings, source, self._publish, log=log_of(self), on_board=self._on_board)
         self._board.session = self.intake.session
         self.intake.start()
@@ -216,8 +218,8 @@ class DriverNode(LifecycleNode):
                 self._baseline.begin(settings)
         except ActsError as error:
             return str(error)
-        if settings.layout != self._settings.layout:
-            self._baseline.arrange(settings)
+        # Though it be the same: its file may be another, and the board's is read again as well.
+        self._baseline.arrange(settings)
         before, self._settings = self._what, settings
         self._next_source = None
         if self._what != before:

@@ -219,6 +219,31 @@ def test_a_layout_that_cannot_be_read_leaves_the_baseline_its_neighbours(
     calibrate(rig)
 
 
+@pytest.mark.parametrize("is_set_again", [True, False])
+def test_a_layout_s_file_is_read_again_with_the_port_or_where_it_is_set_again(
+    rig: Rig, stream: Stream, tmp_path: Path, capfd: pytest.CaptureFixture[str], is_set_again: bool
+) -> None:
+    combed = tmp_path / "combed.yaml"
+    start(rig, stream, tmp_path / "skin.npz", layout=combed)
+    told = ""
+
+    def is_told() -> bool:
+        nonlocal told
+        told += capfd.readouterr().err
+        return "the baseline goes on with the neighbours that it knows" in told
+
+    rig.spin_until(is_told, "the warning")
+    close_port(rig)
+    combed.write_text("patches:\n  pad:\n    wires: {down: 'rows 0 to 6 by 2, 1 to 7 by 2', across: cols}\n")
+    if is_set_again:
+        assert rig.set_parameters(layout=str(combed)) == (True, "")
+    open_port(rig)
+    # In the matrix these are two broken taxels.
+    stream.field[[3, 2 * COLS + 3]] = 400
+    stream.start()
+    ask_until(rig, "calibrate", lambda answer: "the skin was touched: 2 taxels" in answer.message, "a refusal")
+
+
 @pytest.mark.parametrize("service", ["calibrate", "tare"])
 def test_without_frames_the_past_is_not_taken_for_the_present(
     rig: Rig, stream: Stream, tmp_path: Path, service: str
