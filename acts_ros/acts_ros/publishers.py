@@ -5,8 +5,10 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -27,7 +29,7 @@ _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 
 # Fast DDS waits 0.1 s for each.
 _ATTEMPTS_LATCHED = 3
-# Shortest time between two lines in the log about a topic.
+# Shortest time between two lines in the log about a topic, and between two attempts after the first few.
 _PERIOD_S = 1.0
 
 
@@ -42,11 +44,36 @@ class TolerantPublisher(Publisher):
         super().__init__(*arguments, **options)
         # Kept: when a line was written last is known to this logger only, not to another one of its name.
         self._log = get_logger("acts_ros")
+        self._turn = threading.Lock()
+        # The newest message, if the middleware has not taken it and it is to be kept for late joiners.
+        self._owed: Any = None
 
     def publish(self, msg: Any) -> None:
-        """Publish; one that is kept for late joiners, and does not come again soon, is tried a few times."""
-        is_latched = self.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-        for left in reversed(range(_ATTEMPTS_LATCHED if is_latched else 1)):
+        """Publish; one that is kept for late joiners, and does not come again soon, is tried until it is taken.
+
+        A few times at once, and then once a second from a thread of its own.
+        """
+        if self.qos_profile.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
+            self._is_taken(msg, 1)
+            return
+        with self._turn:
+            is_owing = self._owed is not None
+            self._owed = None if self._is_taken(msg, _ATTEMPTS_LATCHED) else msg
+            if self._owed is not None and not is_owing:
+                threading.Thread(target=self._go_on, name="acts_owed", daemon=True).start()
+
+    def _go_on(self) -> None:
+        # Until the publisher, or its context, is destroyed.
+        with suppress(rclpy_implementation.InvalidHandle, rclpy_implementation.RCLError):
+            while True:
+                time.sleep(_PERIOD_S)
+                with self._turn:
+                    if self._owed is None or self._is_taken(self._owed, 1):
+                        self._owed = None
+                        return
+
+    def _is_taken(self, msg: Any, attempts: int) -> bool:
+        for left in reversed(range(attempts)):
             try:
                 super().publish(msg)
             except rclpy_implementation.RCLError as error:
@@ -59,7 +86,8 @@ class TolerantPublisher(Publisher):
                         throttle_time_source_type=STEADY,
                     )
             else:
-                return
+                return True
+        return False
 
 
 def published(profile: QoSProfile) -> dict[str, Any]:

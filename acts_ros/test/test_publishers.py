@@ -137,6 +137,26 @@ def test_of_each_topic_it_is_told_once_a_second(
     assert lines.count("a message on /plate/board was not published") == 1
 
 
+def test_what_is_kept_for_late_joiners_comes_when_the_middleware_takes_it_again(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publisher = graph.watcher.create_publisher(Int32, "board", **published(LATCHED))
+    middleware = Middleware(1000, "Failed to publish: cannot publish data")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    publisher.publish(Int32(data=1))
+    publisher.publish(Int32(data=2))
+    late = graph.listen(Int32, "board", LATCHED)
+    # It is tried again without another message.
+    asked = middleware.asked
+    graph.until(lambda: middleware.asked > asked)
+    assert not late
+    middleware.refused = 0
+    graph.until(lambda: late)
+    publisher.publish(Int32(data=3))
+    graph.until(lambda: len(late) == 2)
+    assert [one.data for one in late] == [2, 3]
+
+
 def test_another_error_of_a_publisher_is_raised(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
     publisher = graph.watcher.create_publisher(Int32, "touch", 10, publisher_class=TolerantPublisher)
     middleware = Middleware(1, "the context is invalid")
