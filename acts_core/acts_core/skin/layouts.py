@@ -83,16 +83,17 @@ class Layout:
 
     @cached_property
     def neighbours(self) -> NDArray[np.int32]:
-        """The up to eight taxels around each taxel of the matrix, on the skin and on the same patch.
+        """The up to eight taxels around each taxel of the matrix, on the skin and on the same patch; none without skin.
 
         np.ndarray [shape=(matrix_rows * matrix_cols, 8), dtype=int32, read-only]: matrix indices, -1 for none.
         """
         taxels = np.pad(self.taxels.astype(np.int32), 1, constant_values=-1)
         patches = np.pad(self.patch_of, 1, constant_values=NO_PATCH)
+        is_skin = self.patch_of != NO_PATCH
         around = []
         for row, col in ((0, 0), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1), (2, 2)):
             there = slice(row, row + self.rows), slice(col, col + self.cols)
-            around.append(np.where(patches[there] == self.patch_of, taxels[there], np.int32(-1)).ravel())
+            around.append(np.where(is_skin & (patches[there] == self.patch_of), taxels[there], np.int32(-1)).ravel())
         by_taxel = np.stack(around, axis=1)[self.places]
         by_taxel.flags.writeable = False
         return by_taxel

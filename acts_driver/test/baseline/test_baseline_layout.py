@@ -66,6 +66,20 @@ def test_taxels_that_touch_on_the_skin_are_a_touch_and_such_as_touch_in_the_matr
         stream.tracker.calibrate()
 
 
+def test_taxels_without_skin_are_not_touched(tmp_path: Path) -> None:
+    path = tmp_path / "half.yaml"
+    path.write_text("matrix: [8, 6]\npicture: [8, 6]\npatches:\n  pad:\n    wires: {down: rows 0 to 3, across: cols}\n")
+    stream = Stream(layout(str(path), ROWS, COLS))
+    open_wires, touched = untouched(), untouched()
+    open_wires[4:, 2:4] = 400
+    touched[2:4, 2] = 400
+    stream.run(2.0, open_wires)
+    assert stream.tracker.calibrate().counts[4:, 2:4].tolist() == [[400.0] * 2] * 4
+    stream.run(2.0, touched)
+    with pytest.raises(CalibrationError, match="2 taxels, for example row 2, column 2"):
+        stream.tracker.calibrate()
+
+
 def test_what_lies_beside_a_touch_on_the_skin_does_not_drift(skin: Layout) -> None:
     stream = Stream(skin)
     stream.run(2.0, untouched())
