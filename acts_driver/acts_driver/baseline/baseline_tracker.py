@@ -67,16 +67,35 @@ class Drift(NamedTuple):
     largest: float
 
 
-class Tare(NamedTuple):
-    """A tare: the baseline since then, and how many taxels were not still while it was measured."""
+class Calibration(NamedTuple):
+    """A calibration: the baseline since then, and how many taxels were measured for it; the others stay as before."""
 
     baseline: Baseline
+    measured: int
+
+    def __str__(self) -> str:
+        """What was done, for the one who asked for it."""
+        valid, noise_counts = self.baseline.valid, self.baseline.noise_counts
+        noise = float(np.median(noise_counts[valid]))
+        done = f"calibrated {self.measured} of {valid.size} taxels, noise {noise:.2f} counts (median)"
+        if self.measured == valid.size:
+            return done
+        return (
+            f"{done}; the other {valid.size - self.measured} had fewer than {_LEAST_READINGS} readings and stay as "
+            "they were: the schemes raster and uniform measure all"
+        )
+
+
+class Tare(NamedTuple):
+    """A tare: the baseline since then, how many taxels were measured for it, and how many of them were not still."""
+
+    baseline: Baseline
+    measured: int
     unsteady: int
 
     def __str__(self) -> str:
         """What was done, for the one who asked for it."""
-        valid = self.baseline.valid
-        done = f"tared {int(valid.sum())} of {valid.size} taxels"
+        done = f"tared {self.measured} of {self.baseline.valid.size} taxels"
         if not self.unsteady:
             return done
         return f"{done}, but {self.unsteady} of them changed meanwhile: keep what lies on the skin still and tare again"
@@ -194,7 +213,7 @@ class BaselineTracker:
                 baseline.source,
             )
 
-    def calibrate(self) -> Baseline:
+    def calibrate(self) -> Calibration:
         """Determine baseline and noise from the last seconds, in which the skin must have been untouched.
 
         Taxels with too few readings in that time keep their baseline.
@@ -233,7 +252,7 @@ class BaselineTracker:
                 measured | known,
                 BaselineSource.CALIBRATION,
             )
-            return self._present()
+            return Calibration(self._present(), int(measured.sum()))
 
     def tare(self) -> Tare:
         """Tare: set the baseline to the present readings, whatever lies on the skin; noise that is known stays.
@@ -261,7 +280,7 @@ class BaselineTracker:
                 measured | known,
                 BaselineSource.TARE,
             )
-            return Tare(self._present(), int(unsteady.sum()))
+            return Tare(self._present(), int(measured.sum()), int(unsteady.sum()))
 
     def present(self) -> Baseline | None:
         """The baseline now; None where there is none."""

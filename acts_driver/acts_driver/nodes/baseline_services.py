@@ -166,9 +166,10 @@ class BaselineServices:
     def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             self._require_frames()
-            baseline = replace(self._tracker.calibrate(), board_id=self._board_id)
+            calibration = self._tracker.calibrate()
         except ActsError as error:
             return self._answer(response, False, str(error))
+        baseline = replace(calibration.baseline, board_id=self._board_id)
         self._baseline_board_id = baseline.board_id
         # In force even where the file cannot be written.
         self._publish(baseline)
@@ -178,14 +179,8 @@ class BaselineServices:
                 within_patience(lambda: self._store(baseline, path), SettingsError, f"{path}: storing the baseline")
         except ActsError as error:
             return self._answer(response, False, f"calibrated until the driver ends, but not stored: {error}")
-        noise = float(np.median(baseline.noise_counts[baseline.valid]))
         stored = "" if self._path is None else f"; stored in {self._path}"
-        return self._answer(
-            response,
-            True,
-            f"calibrated {int(baseline.valid.sum())} of {baseline.valid.size} taxels, noise {noise:.2f} counts "
-            f"(median){stored}",
-        )
+        return self._answer(response, True, f"{calibration}{stored}")
 
     def _store(self, baseline: Baseline, path: Path) -> None:
         """Write the file, after an older calibration that a slow disk holds up, and not after a newer one."""

@@ -63,7 +63,7 @@ def test_calibration_finds_baseline_and_noise_in_any_scheme(m: int) -> None:
         skin.tracker.calibrate()
     assert skin.tracker.present() is None
     skin.run(2.5)
-    baseline = skin.tracker.calibrate()
+    baseline = skin.tracker.calibrate().baseline
     assert baseline.valid.all()
     assert np.abs(baseline.counts - skin.field).max() < 1.5
     assert np.median(baseline.noise_counts) == pytest.approx(1.5, rel=0.25)
@@ -96,7 +96,7 @@ def test_a_pause_of_the_stream_begins_anew() -> None:
         skin.tracker.calibrate()
     skin.now_ns -= 10 * 10**9
     skin.run(1.5)
-    assert skin.tracker.calibrate().valid.all()
+    assert skin.tracker.calibrate().baseline.valid.all()
 
 
 def test_of_a_slow_stream_each_frame_counts() -> None:
@@ -151,9 +151,27 @@ def test_taxels_that_are_not_measured_are_not_known() -> None:
     few = BaselineTracker(ROWS, COLS, CONFIG)
     for i in range(200):
         few.observe([(frame, i * FRAME_NS)])
-    baseline = few.calibrate()
+    baseline = few.calibrate().baseline
     assert baseline.valid.ravel().tolist() == [True] * 3 + [False] * (SIZE - 3)
     assert baseline.counts.ravel().tolist() == [9.0] * 3 + [0.0] * (SIZE - 3)
+
+
+def test_taxels_that_are_not_measured_are_not_told_to_be_calibrated_or_tared() -> None:
+    skin = Skin()
+    skin.run(2.5)
+    assert str(skin.tracker.calibrate()).startswith("calibrated 30 of 30 taxels, noise ")
+    skin.m = 1  # one taxel, the same in every frame
+    skin.frames = 0
+    for _ in range(250):
+        skin.run(0.01)
+        skin.frames = 0
+    told = str(skin.tracker.calibrate())
+    assert told.startswith("calibrated 1 of 30 taxels, noise ")
+    others = "(median); the other 29 had fewer than 8 readings and stay as they were: the schemes raster and uniform"
+    assert told.endswith(f"{others} measure all")
+    tare = skin.tracker.tare()
+    assert str(tare) == "tared 1 of 30 taxels"
+    assert tare.baseline.valid.all()
 
 
 def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
@@ -161,7 +179,7 @@ def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
     with pytest.raises(CalibrationError, match=r"less than 0\.2 s"):
         skin.tracker.tare()
     skin.run(2.0)
-    noise = skin.tracker.calibrate().noise_counts
+    noise = skin.tracker.calibrate().baseline.noise_counts
     skin.run(1.0, skin.pressed())
     tare = skin.tracker.tare()
     assert str(tare) == "tared 30 of 30 taxels"
@@ -242,7 +260,7 @@ def test_drift_is_followed_however_often_a_taxel_is_measured(counts: int, tau_s:
 def test_a_baseline_may_be_told_to_stay() -> None:
     skin = Skin(BaselineConfig(tare_s=0.2, calibration_blocks=5, tau_s=0.0))
     skin.run(2.0)
-    before = skin.tracker.calibrate()
+    before = skin.tracker.calibrate().baseline
     skin.run(5.0, skin.field + 10)
     present = skin.tracker.present()
     assert present is not None

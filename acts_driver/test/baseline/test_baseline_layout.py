@@ -74,7 +74,7 @@ def test_taxels_without_skin_are_not_touched(tmp_path: Path) -> None:
     open_wires[4:, 2:4] = 400
     touched[2:4, 2] = 400
     stream.run(2.0, open_wires)
-    assert stream.tracker.calibrate().counts[4:, 2:4].tolist() == [[400.0] * 2] * 4
+    assert stream.tracker.calibrate().baseline.counts[4:, 2:4].tolist() == [[400.0] * 2] * 4
     stream.run(2.0, touched)
     with pytest.raises(CalibrationError, match="2 taxels, for example row 2, column 2"):
         stream.tracker.calibrate()
