@@ -10,6 +10,7 @@ from typing import Any
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from sensor_msgs.msg import JointState
 
 from acts_control.hand.control import Behaviour, HandLoop, HandLoopConfig, HandPhase, PendingAnswer
@@ -65,7 +66,7 @@ def make_bus(node: Node, hand: HandDescription, settings: MotorSettings) -> Hand
     if settings.interface != _CMD_LEAP:
         return make_motors(settings.interface, hand, settings)
     # Not a tolerant one: the loop has to know which goals were sent.
-    publisher = node.create_publisher(JointState, _CMD_LEAP, STATE)
+    publisher = node.create_publisher(JointState, _CMD_LEAP, STATE, publisher_class=Publisher)
 
     def send(angles_rad: list[float]) -> None:
         try:
