@@ -106,11 +106,11 @@ def running(folder: Path, program: str = PROGRAM, *arguments: str) -> Iterator[R
 
 def is_gone(pid: int) -> bool:
     try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except (FileNotFoundError, ProcessLookupError):  # the second where it goes while its file is read
         return True
     # One that nobody has collected yet is gone as well.
-    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    return state == "Z"
 
 
 def test_what_dies_is_started_again_and_the_other_goes_on(tmp_path: Path) -> None:
@@ -261,7 +261,8 @@ def test_output_that_nobody_reads_holds_nothing_up(tmp_path: Path) -> None:
         with open(read_end, "rb", closefd=False) as reader:
             shown = reader.read().decode().splitlines()
         assert process.wait(DEADLINE_S) == 0
-        assert shown.count("[it-1] ready") > 1000
+        # Either may have been first, and have filled the pipe by itself.
+        assert shown.count("[it-1] ready") + shown.count("[it-2] ready") > 4000
     finally:
         process.kill()
         process.wait()
