@@ -21,10 +21,12 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
+from rclpy.client import Client
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
+from rclpy.task import Future
 
-from acts_core.errors import SettingsError
+from acts_core.errors import ActsError, SettingsError
 from acts_core.names import check_remaps
 from acts_ros.processes import packages
 
@@ -72,6 +74,27 @@ def init(**options: Any) -> None:
 def reason_of(error: Exception) -> str:
     """What an error of rclpy says, without the lines of ROS's source that it adds."""
     return _SOURCE_PLACE.sub("", str(error))
+
+
+class NotAskedError(ActsError):
+    """The middleware has not taken a question; nobody has heard it, and it can be asked again."""
+
+
+def ask(client: Client, request: Any) -> Future[Any]:
+    """Call a service; the future is done when it has answered.
+
+    Raises
+    ------
+    NotAskedError
+        The middleware does not take the question: Fast DDS gives one up when its own threads do not let go of a writer
+        within 0.1 s.
+    """
+    try:
+        return client.call_async(request)
+    except rclpy_implementation.RCLError as error:
+        if not str(error).startswith(NOT_SENT):
+            raise
+        raise NotAskedError(f"{client.srv_name} was not asked: {reason_of(error)}; ask again") from error
 
 
 def check_domain(environment: Mapping[str, str]) -> None:

@@ -14,6 +14,11 @@ ROOT = Path(__file__).resolve().parents[2]
 RAISING = {"acts_control/hand/nodes/motor_node.py": 1, "acts_tools/bench/cases/frame_parts.py": 1}
 
 
+def test_services_are_asked_in_one_place() -> None:
+    asking = [path.name for path in ROOT.glob("acts_*/acts_*/**/*.py") if ".call_async(" in path.read_text()]
+    assert asking == ["middleware.py"]
+
+
 def test_publishers_of_nodes_are_tolerant() -> None:
     found = 0
     raising: dict[str, int] = {}

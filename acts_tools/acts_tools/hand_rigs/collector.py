@@ -18,6 +18,7 @@ from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros import qos
 from acts_ros.log import STEADY
 from acts_ros.messages import read_regions, seconds_of
+from acts_ros.middleware import ask
 from acts_ros.polled import PollingNode
 from acts_sim.hand import TruthFollower
 from acts_sim.shared import TimedRingReader
@@ -107,8 +108,14 @@ class HandCollector(PollingNode):
                 self._take_regions(data)
 
     def ask(self, name: str) -> Future:
-        """Call a service of the hand; the future is done when it has replied."""
-        return self._triggers[name].call_async(Trigger.Request())
+        """Call a service of the hand; the future is done when it has replied.
+
+        Raises
+        ------
+        NotAskedError
+            As of `acts_ros.middleware.ask`.
+        """
+        return ask(self._triggers[name], Trigger.Request())
 
     @property
     def is_served(self) -> bool:

@@ -14,6 +14,7 @@ import rclpy
 
 from acts_core.errors import ActsError, LaunchError
 from acts_msgs.msg import HandStatus
+from acts_ros.middleware import NotAskedError
 from acts_sim.dynamixel import ControlClient
 from acts_tools.hand_rigs.collector import HandCollector
 from acts_tools.hand_rigs.recording import HandRecording
@@ -74,10 +75,13 @@ class LiveHand:
         Raises
         ------
         HandRefusalError
-            When it refuses, or does not reply.
+            When it refuses, was not asked, or does not reply.
         """
         now_s = self._mark(mark)
-        answer = self._collector.ask(name)
+        try:
+            answer = self._collector.ask(name)
+        except NotAskedError as error:
+            raise HandRefusalError(str(error)) from error
         # The watcher polls topics, but replies of services need the executor.
         deadline_s = time.monotonic() + _ANSWER_TIMEOUT_S
         while not answer.done() and time.monotonic() < deadline_s:

@@ -55,8 +55,11 @@ def call(
     Raises
     ------
     error
-        Nobody offers it, its node ends, or it does not answer.
+        Nobody offers it, the middleware does not take the question, its node ends, or it does not answer.
     """
+    # Imported here: the command line is read without ROS.
+    from acts_ros.middleware import NotAskedError, ask
+
     client: Client[Any, Any] = node.create_client(kind, name)
     if not client.wait_for_service(timeout_sec=found_s):
         names = (one for one, _ in node.get_service_names_and_types())
@@ -64,7 +67,10 @@ def call(
         raise error(
             f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID{hint or '?'}"
         )
-    future = client.call_async(request)
+    try:
+        future = ask(client, request)
+    except NotAskedError as refusal:
+        raise error(str(refusal)) from refusal
     deadline_s = time.monotonic() + answer_s
     while not future.done():
         executor.spin_until_future_complete(future, timeout_sec=_LOOK_S)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from rclpy.client import Client
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from spinning import spinning_node
 from std_srvs.srv import SetBool, Trigger
@@ -57,6 +59,21 @@ def test_a_refusal_is_an_error(hand: list[str], capsys: pytest.CaptureFixture[st
     assert main(["call", "/hand/reflexes/release"]) == 1
     assert capsys.readouterr() == ("", "error: no touch\n")
     assert hand == ["release"]
+
+
+def test_a_question_that_the_middleware_does_not_take_is_an_error(
+    hand: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(_client: Client, _asked: object) -> None:
+        raise rclpy_implementation.RCLError("failed to send request: cannot publish data, at x.cpp:68")
+
+    monkeypatch.setattr(Client, "call_async", refuse)
+    assert main(["call", "/hand/reflexes/grasp"]) == 1
+    assert capsys.readouterr() == (
+        "",
+        "error: /hand/reflexes/grasp was not asked: failed to send request: cannot publish data; ask again\n",
+    )
+    assert not hand
 
 
 def test_without_a_name_the_services_are_listed(hand: list[str], capsys: pytest.CaptureFixture[str]) -> None:

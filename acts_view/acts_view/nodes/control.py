@@ -15,7 +15,6 @@ from typing import Any
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.client import Client
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Future
 from std_srvs.srv import Trigger
@@ -23,7 +22,7 @@ from std_srvs.srv import Trigger
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
-from acts_ros.middleware import reason_of
+from acts_ros.middleware import NotAskedError, ask
 from acts_view.recording.recording import Recording
 from acts_view.web.requests import STOPS, Answer, Request
 
@@ -175,9 +174,9 @@ class Control:
         if client is None or not client.service_is_ready():
             raise ViewRequestError(f"{service} is not reached: has its node ended? If it has just begun, try again")
         try:
-            future = client.call_async(asked)
-        except rclpy_implementation.RCLError as error:
-            raise ViewRequestError(f"{service} was not asked: {reason_of(error)}; ask again") from error
+            future = ask(client, asked)
+        except NotAskedError as error:
+            raise ViewRequestError(str(error)) from error
         call = _Call(client, future, answer, service, time.monotonic() + self._patience_s)
         self._calls.append(call)
 
@@ -210,8 +209,8 @@ class Control:
                 self._settings[driver] = dict(zip(_PARAMETERS, values, strict=True))
 
         try:
-            self._asked[driver] = client.call_async(GetParameters.Request(names=list(_PARAMETERS)))
-        except rclpy_implementation.RCLError:
+            self._asked[driver] = ask(client, GetParameters.Request(names=list(_PARAMETERS)))
+        except NotAskedError:
             return  # the next look asks again
         self._asked[driver].add_done_callback(on_done)
 

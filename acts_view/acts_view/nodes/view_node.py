@@ -25,6 +25,7 @@ from acts_core.words import counted
 from acts_ros.clocks import steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
 from acts_ros.log import STEADY, log_of
+from acts_ros.middleware import NotAskedError, ask
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
 from acts_ros.publishers import OnlyPublishers
@@ -197,7 +198,10 @@ class ViewNode(PollingNode):
             # Kept, questions that are never answered would add up.
             client.remove_pending_request(asked)
         if client.service_is_ready():
-            future = client.call_async(GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
+            try:
+                future = ask(client, GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
+            except NotAskedError:
+                return  # the next look asks again
             future.add_done_callback(lambda done: self._on_shape(name, done))
             self._asked[name] = client, future
 
