@@ -44,7 +44,7 @@ def header_where(client: ClientConnection, condition: Callable[[dict[str, Any]],
 class Bench:
     """The node, a skin that a test plays, and what pages were sent."""
 
-    def __init__(self, domain_id: int) -> None:
+    def __init__(self, domain_id: int, **parameters: str) -> None:
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain_id)
         self.skin = Node("skin", namespace="hand", context=self._context)
@@ -53,7 +53,8 @@ class Bench:
         for name, value in SHAPE.items():
             self._reconstruction.declare_parameter(name, value)
         self.contact = self.skin.create_publisher(Contact, "contact", qos.STREAM)
-        options = [Parameter("port", value=0), Parameter("outlines", value=True)]
+        given = {"port": 0, "outlines": True, **parameters}
+        options = [Parameter(name, value=value) for name, value in given.items()]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
         self._spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
         self.headers: dict[str, dict[str, Any]] = {}

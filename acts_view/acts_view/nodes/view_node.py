@@ -52,6 +52,8 @@ _NODES_MAX = 200
 _VALUES_MAX = 100
 _TEXT = 500
 _ONLY_SHOWS = "This page only shows. With acts view --control it can also record, tare, and start and stop motion."
+_MISSING = "nobody publishes touch of this skin: is its name right, and do its driver and its reconstruction run?"
+_TOUCH_TOPICS = ("contact", "view/contact_series", "image_raw", "view/image_raw")
 _CONTACT_TYPE = "acts_msgs/msg/Contact"
 _CONTACT_TOPIC = "/contact"
 _ONLY_TOPICS = ("samples", "contact")
@@ -170,7 +172,7 @@ class ViewNode(PollingNode):
                     self._skins[name] = made
             self._ask_shape(name)
         told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
-        diagnostics = [*self._mixtures(), *self._statuses()]
+        diagnostics = [*self._mixtures(), *self._missing(), *self._statuses()]
         self._server.show_status({"skins": self._names, "diagnostics": diagnostics, **told})
 
     def _leave(self) -> None:
@@ -239,6 +241,14 @@ class ViewNode(PollingNode):
             {"name": name or "/", "level": WARN, "message": problem[:_TEXT], "age_s": 0.0, "values": []}
             for name, problem in problems.items()
             if problem
+        ]
+
+    def _missing(self) -> list[dict[str, Any]]:
+        """Of skins that were asked for and that nobody publishes, that it is so."""
+        return [
+            {"name": name or "/", "level": WARN, "message": _MISSING, "age_s": 0.0, "values": []}
+            for name in self._settings.namespaces
+            if not any(self.count_publishers(f"{name}/{topic}") for topic in _TOUCH_TOPICS)
         ]
 
     def _forget(self) -> None:
