@@ -19,6 +19,8 @@ from acts_tools.running.near_names import did_you_mean
 _FOUND_S = 10.0
 _ANSWER_S = 30.0
 _SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
+# As lifecycle_msgs/msg/Transition numbers them.
+_TRANSITIONS = {"configure": 1, "cleanup": 2, "activate": 3, "deactivate": 4}
 
 _EPILOG = """\
 examples:
@@ -27,6 +29,8 @@ examples:
   acts driver tare                         whatever lies on the skin now reads 0
   acts driver set scheme=tracking m=128    all of them or none
   acts driver -n left_hand query           the driver of another skin
+  acts driver deactivate                   it reads the board, but publishes nothing
+  acts driver cleanup                      ... and now it has closed the port
 
 docs/driver.md lists the parameters that can be set.
 """
@@ -37,12 +41,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = subparsers.add_parser(
         "driver",
         help="control a running driver",
-        description="Query the board of a running driver, calibrate or tare it, or set parameters of the board.",
+        description="Query the board of a running driver, calibrate or tare it, set parameters of the board, or change "
+        "the driver's state: configure opens the port, activate publishes, deactivate and cleanup take these back.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-n", "--namespace", default="plate", help="namespace of the skin (plate)")
-    parser.add_argument("what", choices=(*_SERVICES, "set"))
+    parser.add_argument("what", choices=(*_SERVICES, "set", *_TRANSITIONS))
     parser.add_argument("values", nargs="*", metavar="NAME=VALUE", help="parameters, with set")
 
 
@@ -69,7 +74,9 @@ def run(arguments: argparse.Namespace) -> int:
     from rclpy.parameter import Parameter
     from std_srvs.srv import Trigger
 
-    if is_set:
+    if arguments.what in _TRANSITIONS:
+        succeeded, words = _change_state(node, arguments.what)
+    elif is_set:
         request = SetParametersAtomically.Request()
         request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
         result = _call(SetParametersAtomically, f"{node}/set_parameters_atomically", request).result
@@ -82,6 +89,18 @@ def run(arguments: argparse.Namespace) -> int:
         raise BoardError(words)
     print(words, file=sys.stdout if succeeded else sys.stderr)
     return 0 if succeeded else 1
+
+
+def _change_state(node: str, transition: str) -> tuple[bool, str]:
+    """Change a driver's state; whether that was done, and the state it is in then."""
+    from lifecycle_msgs.srv import ChangeState, GetState
+
+    request = ChangeState.Request()
+    request.transition.id = _TRANSITIONS[transition]
+    is_done = _call(ChangeState, f"{node}/change_state", request).success
+    state = _call(GetState, f"{node}/get_state", GetState.Request()).current_state.label
+    refusal = f"{node} is {state} and does not {transition}: its own log has the reason, if {state} allows it at all"
+    return is_done, state if is_done else refusal
 
 
 def parameters_of(words: list[str]) -> dict[str, Any]:

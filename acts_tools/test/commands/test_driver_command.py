@@ -76,6 +76,22 @@ def test_a_driver_is_asked_and_told(driver: None, capsys: pytest.CaptureFixture[
     assert told.err.startswith("error: ") if refused else told.out.startswith("tared ")
 
 
+def test_a_driver_is_taken_through_its_states(driver: None, capsys: pytest.CaptureFixture[str]) -> None:
+    for transition, state in (
+        ("deactivate", "inactive"),
+        ("cleanup", "unconfigured"),
+        ("configure", "inactive"),
+        ("activate", "active"),
+    ):
+        assert main(["driver", "-n", "hand", transition]) == 0
+        assert capsys.readouterr().out == f"{state}\n"
+    assert main(["driver", "-n", "hand", "cleanup"]) == 1
+    assert capsys.readouterr().err.startswith("error: /hand/driver is active and does not cleanup: its own log has")
+    # It goes on as before.
+    assert main(["driver", "-n", "hand", "query"]) == 0
+    assert "board 77" in capsys.readouterr().out
+
+
 def test_parameters_have_the_types_they_are_declared_with() -> None:
     found = parameters_of(["m=64", "rate_cap_hz=500", "scheme=tracking", "model="])
     assert found == {"m": 64, "rate_cap_hz": 500.0, "scheme": "tracking", "model": ""}
