@@ -91,8 +91,8 @@ class BoardProcess:
             os.close(self._port)
             self._port = None
 
-    def read_bytes(self) -> bytes:
-        """Some bytes; fails where none come."""
+    def read_bytes(self, *, may_end: bool = False) -> bytes:
+        """Some bytes; fails where none come, and at the end of the stream unless that `may_end`."""
         assert self._port is not None
         # In pieces: where the whole machine stood still, the clock has gone on before the board can.
         for _ in range(round(DEADLINE_S / _PIECE_S)):
@@ -100,7 +100,9 @@ class BoardProcess:
             if ready:
                 break
         assert ready, f"the board is silent, its exit code {self.process.poll()}; {self.errors.read_text()}"
-        return os.read(self._port, 65536)
+        read = os.read(self._port, 65536)
+        assert read or may_end, f"the port is closed, the board's exit code {self.process.poll()}"
+        return read
 
     def read_frames(self, count: int) -> list[SampleFrame]:
         """The next `count` frames or a few more."""

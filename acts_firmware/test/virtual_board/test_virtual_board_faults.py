@@ -225,7 +225,7 @@ def read_to_the_end(board: BoardProcess) -> StreamDecoder:
     """What the open port still gives before it is gone, in a decoder that saw it from its beginning."""
     decoder = StreamDecoder()
     try:
-        while data := board.read_bytes():
+        while data := board.read_bytes(may_end=True):
             decoder.feed(data)
     except OSError:
         pass
