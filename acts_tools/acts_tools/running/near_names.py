@@ -31,8 +31,19 @@ def did_you_mean(name: str, names: Iterable[str]) -> str:
     """
     known = sorted(set(names) - {name})
     in_namespaces = [one for one in known if name.startswith("/") and one.endswith(name)]
-    near = in_namespaces[:_MOST] or difflib.get_close_matches(name, known, n=1, cutoff=_NEAR)
+    near = in_namespaces[:_MOST]
+    if not near and known:
+        nearest = max(known, key=lambda one: _likeness(name, one))
+        near = [nearest] if _likeness(name, nearest) >= _NEAR else []
     return f"; did you mean {' or '.join(near)}?" if near else ""
+
+
+def _likeness(name: str, other: str) -> float:
+    """From 0 to 1; of two names in one namespace, which says nothing of what was meant, that of their last parts."""
+    namespace, _, last = name.rpartition("/")
+    others_namespace, _, others_last = other.rpartition("/")
+    words = (last, others_last) if namespace == others_namespace else (name, other)
+    return difflib.SequenceMatcher(None, *words).ratio()
 
 
 def near_topic(node: Node, topic: str) -> str:

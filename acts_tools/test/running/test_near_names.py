@@ -32,6 +32,8 @@ DEADLINE_S = 60.0
         ("/contact", "; did you mean /left/contact or /plate/contact?"),
         ("contcat", ""),
         ("/nobody", ""),
+        # All of it but the namespace, which they share, is another.
+        ("/plate/twst", ""),
         ("/plate/contact", "; did you mean /plate/contacts?"),
     ],
 )
