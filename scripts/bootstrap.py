@@ -294,6 +294,11 @@ def packages() -> list[Path]:
     return sorted(path.parent for path in ROOT.glob("*/package.xml"))
 
 
+def is_source(package: Path, path: Path) -> bool:
+    """Whether a file of a package is none that Python or pip has left there."""
+    return not {"__pycache__", "build"} & set(path.relative_to(package).parts)
+
+
 def build_workspace() -> None:
     """`colcon build` of every package, merged into one installation; Python modules are linked, not copied."""
     files = [
@@ -301,10 +306,11 @@ def build_workspace() -> None:
         for package in packages()
         for pattern in BUILD_INPUTS
         for path in package.rglob(pattern)
-        if "__pycache__" not in path.parts
+        if is_source(package, path)
     ]
     # New and removed modules and executables count as well as changed build files.
-    names = " ".join(str(path.relative_to(ROOT)) for package in packages() for path in sorted(package.rglob("*.py")))
+    modules = (path for package in packages() for path in sorted(package.rglob("*.py")) if is_source(package, path))
+    names = " ".join(str(path.relative_to(ROOT)) for path in modules)
     wanted = digest([*files, Path(__file__).resolve()], names, (VENV / "acts.stamp").read_text())
     stamp = STATE / "build.stamp"
     if up_to_date(stamp, wanted):

@@ -177,6 +177,24 @@ def test_a_change_of_the_set_up_itself_asks_for_a_build(
     assert built == ["one", "two"]
 
 
+def test_what_pip_leaves_in_a_package_asks_for_no_build(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "acts_core"
+    (package / "build" / "lib").mkdir(parents=True)
+    (package / "package.xml").touch()
+    (tmp_path / "acts.stamp").touch()
+    built: list[int] = []
+    for name in ("ROOT", "STATE", "VENV"):
+        monkeypatch.setattr(bootstrap, name, tmp_path)
+    monkeypatch.setattr(bootstrap, "run", lambda *_, **__: built.append(len(built)))
+    monkeypatch.setattr(bootstrap, "write_first_lines", lambda: None)
+    for new in ("setup.py", "build/lib/setup.py", "build/lib/module.py", "build.py"):
+        (package / new).touch()
+        bootstrap.build_workspace()
+    assert len(built) == 2
+
+
 def test_the_build_is_not_that_of_the_users_own_workspaces(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
