@@ -80,6 +80,11 @@ class Bench:
         """Of the last status; none before the first has come."""
         return list(self.headers.get("status", {}).get("diagnostics", []))
 
+    def is_pressed_with(self, force_n: float) -> bool:
+        """Whether the last frame says so."""
+        touch = self.headers["frame"]["touch"]
+        return touch is not None and bool(touch[2] == force_n)
+
     def on_executor(self, work: Callable[[], object]) -> None:
         """Do something on the thread that spins, and wait for its end."""
         task = self._spinning.executor.create_task(work)

@@ -10,7 +10,6 @@ import tracemalloc
 from array import array
 from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,7 @@ from acts_msgs.msg import (
 )
 from acts_ros import qos
 from acts_ros.messages import ContactFields, RegionsFields, write_contact, write_regions
-from acts_view.nodes import skin_topics, view_node
+from acts_view.nodes import view_node
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
 
@@ -94,7 +93,7 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
                 and sum(map(len, bench.history)) > 2
                 and any(one["name"] == "hand/driver" for one in bench.diagnostics)
                 # A frame may be made between two presses.
-                and is_pressed_with(bench, 3.0)
+                and bench.is_pressed_with(3.0)
             ),
             client,
             play,
@@ -134,27 +133,6 @@ def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_ba
     with bench.connect() as client:
         bench.until(lambda: "image" in bench.arrays, client, play)
     assert (bench.arrays["image"] == 300).all()
-
-
-def test_images_without_contacts_have_the_time_of_their_stamps_and_tell_nothing_of_touch(bench: Bench) -> None:
-    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
-    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
-    picture.header.stamp.sec = 1_790_000_000
-
-    def play() -> None:
-        image.publish(picture)
-
-    def touch() -> tuple[bool, bool]:
-        frame = bench.headers["frame"]
-        return frame["touch_known"], frame["touch"] is not None
-
-    with bench.connect() as client:
-        bench.until(lambda: "image" in bench.arrays, client, play)
-        assert bench.headers["frame"]["stamp_s"] == 1_790_000_000
-        assert touch() == (False, False)
-        bench.until(lambda: touch() == (True, True), client, lambda: bench.press(1.0))
-        # As where a bag of images is played after the skin has ended.
-        bench.until(lambda: touch() == (False, False), client, play)
 
 
 def test_more_than_a_board_can_count_is_shown_as_the_most(bench: Bench) -> None:
@@ -228,47 +206,6 @@ def test_what_no_longer_comes_beside_new_images_is_not_shown_with_them(bench: Be
         # As of one moment with the last image: without another one both of its arrays stay.
         bench.until(lambda: has("confidence", "age"), client, lambda: bench.press(1.0))
         bench.until(has, client, lambda: image.publish(picture))
-
-
-def test_an_image_that_no_longer_comes_is_not_shown_with_new_contacts(bench: Bench) -> None:
-    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
-    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
-
-    def play() -> None:
-        image.publish(picture)
-        bench.press(1.0)
-
-    with bench.connect() as client:
-        bench.until(lambda: "image" in bench.arrays, client, play)
-        # As where a recording from the page, which has no images, is played after the skin has ended.
-        bench.destroy([image])
-        bench.until(lambda: "image" not in bench.arrays, client, lambda: bench.press(2.0))
-        assert is_pressed_with(bench, 2.0)
-        image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
-        bench.until(lambda: "image" in bench.arrays, client, play)
-
-
-def test_an_image_that_comes_seldom_stays(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    # By the clock of the topics it is twenty seconds from one image, and one contact, to the next.
-    now_s = 100.0
-    monkeypatch.setattr(skin_topics, "time", SimpleNamespace(monotonic=lambda: now_s))
-    image = bench.skin.create_publisher(Image, "view/image_raw", qos.VIEW)
-    picture = Image(height=2, width=2, encoding="mono16", step=4, data=array("B", bytes(8)))
-
-    def play() -> None:
-        bench.press(1.0)
-        image.publish(picture)
-
-    with bench.connect() as client:
-        bench.until(lambda: "image" in bench.arrays, client, play)
-        for force_n in (2.0, 3.0):
-            now_s += 20.0
-            bench.press(force_n)
-            bench.until(lambda force_n=force_n: is_pressed_with(bench, force_n), client, lambda: None)  # type: ignore[misc]
-            assert "image" in bench.arrays
-            bench.arrays.clear()
-            image.publish(picture)
-            bench.until(lambda: "image" in bench.arrays, client, lambda: None)
 
 
 @pytest.mark.parametrize(
@@ -385,12 +322,6 @@ def test_recordings_may_be_meant_for_the_home_folder(monkeypatch: pytest.MonkeyP
     assert ViewSettings().record_folder == Path("recordings")
     with pytest.raises(SettingsError, match="~no_such_user/x: "):
         ViewSettings(record_dir="~no_such_user/x")
-
-
-def is_pressed_with(bench: Bench, force_n: float) -> bool:
-    """Whether the last frame says so."""
-    touch = bench.headers["frame"]["touch"]
-    return touch is not None and touch[2] == force_n
 
 
 def contact_subscribers(bench: Bench) -> int:
