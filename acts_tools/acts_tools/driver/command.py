@@ -21,6 +21,8 @@ _ANSWER_S = 30.0
 _SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
 # As lifecycle_msgs/msg/Transition numbers them.
 _TRANSITIONS = {"configure": 1, "cleanup": 2, "activate": 3, "deactivate": 4}
+# Which of them, by the state.
+_ALLOWED = {"unconfigured": ("configure",), "inactive": ("activate", "cleanup"), "active": ("deactivate",)}
 
 _EPILOG = """\
 examples:
@@ -99,8 +101,12 @@ def _change_state(node: str, transition: str) -> tuple[bool, str]:
     request.transition.id = _TRANSITIONS[transition]
     is_done = _call(ChangeState, f"{node}/change_state", request).success
     state = _call(GetState, f"{node}/get_state", GetState.Request()).current_state.label
-    refusal = f"{node} is {state} and does not {transition}: its own log has the reason, if {state} allows it at all"
-    return is_done, state if is_done else refusal
+    if is_done:
+        return True, state
+    allowed = _ALLOWED.get(state, ())
+    if transition in allowed:
+        return False, f"{node} did not {transition} and is {state}; its log has the reason"
+    return False, f"{node} is {state}: allowed is {' or '.join(allowed) or 'nothing yet, ask again'}, not {transition}"
 
 
 def parameters_of(words: list[str]) -> dict[str, Any]:

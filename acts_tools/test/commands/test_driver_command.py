@@ -86,10 +86,21 @@ def test_a_driver_is_taken_through_its_states(driver: None, capsys: pytest.Captu
         assert main(["driver", "-n", "hand", transition]) == 0
         assert capsys.readouterr().out == f"{state}\n"
     assert main(["driver", "-n", "hand", "cleanup"]) == 1
-    assert capsys.readouterr().err.startswith("error: /hand/driver is active and does not cleanup: its own log has")
+    assert capsys.readouterr().err == "error: /hand/driver is active: allowed is deactivate, not cleanup\n"
     # It goes on as before.
     assert main(["driver", "-n", "hand", "query"]) == 0
     assert "board 77" in capsys.readouterr().out
+
+
+def test_a_driver_that_cannot_open_its_port_says_where_the_reason_is(
+    driver: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words in ("driver -n hand deactivate", "driver -n hand cleanup", "param /hand/driver port=/nowhere"):
+        assert main(words.split()) == 0
+    capsys.readouterr()
+    assert main(["driver", "-n", "hand", "configure"]) == 1
+    told = "error: /hand/driver did not configure and is unconfigured; its log has the reason\n"
+    assert capsys.readouterr().err == told
 
 
 def test_parameters_have_the_types_they_are_declared_with() -> None:
