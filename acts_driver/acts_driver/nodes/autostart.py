@@ -8,6 +8,7 @@ from __future__ import annotations
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.timer import Timer
 
+from acts_driver.nodes.transitions import attempt
 from acts_ros.clocks import steady_timer
 
 
@@ -46,9 +47,9 @@ class Autostart:
     def _try(self) -> None:
         if self._is_over:
             return
-        if self._node.trigger_configure() == TransitionCallbackReturn.SUCCESS:
+        if attempt(self._node, self._node.trigger_configure) == TransitionCallbackReturn.SUCCESS:
             self.stop()
-            self._node.trigger_activate()
+            attempt(self._node, self._node.trigger_activate)
         elif not self._is_waiting:
             self._is_waiting = True
             self._node.get_logger().info(f"waiting for {self._waits_for}")

@@ -25,6 +25,7 @@ from acts_driver.nodes.baseline_services import BaselineServices
 from acts_driver.nodes.board_interface import BoardInterface
 from acts_driver.nodes.board_topics import BoardTopics
 from acts_driver.nodes.intake import Intake
+from acts_driver.nodes.transitions import answer_any
 from acts_driver.port import Source
 from acts_driver.settings import DriverSettings
 from acts_msgs.msg import TactileSamples
@@ -67,6 +68,7 @@ class DriverNode(LifecycleNode):
 
     def __init__(self, **node_arguments: object) -> None:
         super().__init__("driver", **node_options(), **node_arguments)
+        answer_any(self)
         self.active = False
         self.intake: Intake | None = None
         self._settings = declare(
