@@ -86,14 +86,12 @@ def ask(client: Client, request: Any) -> Future[Any]:
     Raises
     ------
     NotAskedError
-        The middleware does not take the question: Fast DDS gives one up when its own threads do not let go of a writer
-        within 0.1 s.
+        The middleware does not take the question: Fast DDS, for instance, gives one up when its own threads do not let
+        go of a writer within 0.1 s.
     """
     try:
         return client.call_async(request)
     except rclpy_implementation.RCLError as error:
-        if not str(error).startswith(NOT_SENT):
-            raise
         raise NotAskedError(f"{client.srv_name} was not asked: {reason_of(error)}; ask again") from error
 
 
