@@ -14,6 +14,7 @@ import pytest
 from driver_rig import Rig
 from pressed_frames import press
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from recovery_library import recover
 from sensor_msgs.msg import Image
 from virtual_board import VirtualBoard
 
@@ -85,14 +86,22 @@ def test_images_of_the_board_are_those_of_acts_recon(board: VirtualBoard, rig: R
     pairs = together(rig, images, 200)
 
     reconstructor = Reconstructor(ArrayGeometry(), dictionary)
-    touched = 0
+    touched = decided_by_rounding = 0
     for samples, image in pairs:
         assert (image.header.frame_id, image.encoding, image.height, image.width) == ("plate", "mono16", 32, 32)
-        reconstructor.recover(np.asarray(samples.indices, dtype=np.uint16), np.asarray(samples.counts, dtype=np.uint16))
+        frame = np.asarray(samples.indices, dtype=np.uint16), np.asarray(samples.counts, dtype=np.uint16)
+        reconstructor.recover(*frame)
+        of_the_core = recover(
+            dictionary.atoms, dictionary.patch_size, reconstructor.config.patch_step, (32, 32), *frame
+        )
+        assert of_the_core is not None
         pixels = np.frombuffer(image.data, dtype="<u2").reshape(32, 32)
-        assert np.abs(pixels - reconstructor.image).max() <= 0.505  # rounded to whole counts
+        assert np.abs(pixels - of_the_core).max() <= 0.5  # rounded to whole counts
+        decided_by_rounding += np.abs(pixels - reconstructor.image).max() > 0.505
         touched += bool(pixels.any())
     assert touched > 100
+    # Two atoms that fit alike: in 5 of 200,000 noisy frames of these presses.
+    assert decided_by_rounding <= 1
     status = rig.status_until(lambda status: int(status.get("board_results", "0")) > 200, "the report")
     assert int(status["board_results_dropped"]) <= int(status["lost"])
 
