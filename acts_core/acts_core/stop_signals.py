@@ -151,6 +151,9 @@ class StopSignals:
         # The interpreter, when it goes, gives signals back to the system, which would kill; ignored ones it leaves.
         for number in STOP_SIGNALS:
             signal.signal(number, signal.SIG_IGN)
+        # It also keeps in mind that an interruption came out of code run from text, as where a dataclass is made, and
+        # would end by SIGINT, whatever the exit code, though it was caught. The next text that is run clears that.
+        exec("")
 
     def _handle(self, number: int, _frame: FrameType | None) -> None:
         self._first = self._first or signal.Signals(number)

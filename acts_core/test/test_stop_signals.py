@@ -48,6 +48,9 @@ print("ended by" if asked.is_set() and signals.is_set else "forgotten", signals.
 signals.ended()
 """
 
+# As where a dataclass is made.
+STARTS_IN_TEXT = STARTS.replace("        while True:\n            pass\n", '        exec("while True: pass")\n')
+
 # As numba's compiler: C calls back, in which an exception is lost, and then fails or goes on without the result.
 CALLED_BACK_FROM_C = """
 import ctypes
@@ -108,7 +111,7 @@ def line(process: subprocess.Popen[str]) -> str:
     return process.stdout.readline().strip()
 
 
-@pytest.mark.parametrize("code", [ENDS, STARTS], ids=["running", "starting"])
+@pytest.mark.parametrize("code", [ENDS, STARTS, STARTS_IN_TEXT], ids=["running", "starting", "starting in text"])
 @pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_further_signals_do_not_disturb_the_way_out(code: str, first: signal.Signals) -> None:
     with program(code, DEADLINE_S) as process:
