@@ -41,6 +41,8 @@ PYTHON_RECORD = VENV / "acts.python"
 
 PLAIN = re.compile(r"[\w/.+@~-]")
 MINIMUM_PYTHON = (3, 10)
+# Name of this interpreter's program, and of its folders.
+PYTHON = f"python{sys.version_info.major}.{sys.version_info.minor}"
 NEWER_THAN_UR_RTDE = (3, 13)
 # Raise it when `create_venv` changes, so that existing checkouts make theirs anew.
 VENV_RECIPE = "1"
@@ -48,23 +50,13 @@ NETWORK_HINT = (
     "The wheels come from the network: if that is away, call the same again when it is back; "
     "behind a mirror or a proxy set PIP_INDEX_URL or HTTPS_PROXY."
 )
-TOOLS = {"g++": "g++", "cmake": "cmake", "make": "make"}
+# Each comes with a package of its name.
+TOOLS = ("g++", "cmake", "make")
 # A change to one of these, or of this file, asks for a new colcon build; Python modules do not, they are linked into
 # the installation.
 BUILD_INPUTS = (
-    "setup.py",
-    "setup.cfg",
-    "CMakeLists.txt",
-    "*.msg",
-    "*.srv",
-    "*.cpp",
-    "*.hpp",
-    "*.h",
-    "*.xml",
-    "*.yaml",
-    "*.json",
-    "*.rviz",
-    "*.npz",
+    *("setup.py", "setup.cfg", "CMakeLists.txt"),
+    *(f"*.{kind}" for kind in ("msg", "srv", "cpp", "hpp", "h", "xml", "yaml", "json", "rviz", "npz")),
 )
 
 
@@ -102,8 +94,8 @@ def check_machine() -> None:
             f"Python {sys.version.split()[0]} is too old: ACTS needs 3.10 or newer. "
             "Install one and call, once, `make setup PYTHON=/path/to/python3`."
         )
-    packages = [package for tool, package in TOOLS.items() if shutil.which(tool) is None]
     missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    packages = list(missing)
     if importlib.util.find_spec("ensurepip") is None or importlib.util.find_spec("venv") is None:
         missing.append("the Python module venv")
         packages.append("python3-venv")
@@ -140,7 +132,7 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
 
 def base_python() -> str:
     """This interpreter; inside a virtual environment, ours perhaps, the one that made that."""
-    python = Path(sys.base_prefix) / "bin" / f"python{sys.version_info.major}.{sys.version_info.minor}"
+    python = Path(sys.base_prefix) / "bin" / PYTHON
     return str(python) if python.is_file() else sys.executable
 
 
@@ -215,7 +207,7 @@ def pip_environment() -> dict[str, str]:
 
 
 def site_packages() -> Path:
-    return VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}" / "site-packages"
+    return VENV / "lib" / PYTHON / "site-packages"
 
 
 def relocate_cmake_exports() -> None:
@@ -224,11 +216,10 @@ def relocate_cmake_exports() -> None:
     The wheels were built against `/opt/python/cpXY-cpXY`; without this, interface packages cannot be built on them.
     """
     tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     built_with = f"/opt/python/{tag}-{tag}"
     replacements = {
-        f"{built_with}/include/{version}": sysconfig.get_paths()["include"],
-        f"{built_with}/lib/{version}/site-packages": str(site_packages()),
+        f"{built_with}/include/{PYTHON}": sysconfig.get_paths()["include"],
+        f"{built_with}/lib/{PYTHON}/site-packages": str(site_packages()),
     }
     for path in (VENV / "share").rglob("*.cmake"):
         text = path.read_text(encoding="utf-8")
@@ -249,7 +240,6 @@ def read_paths_as_utf8() -> None:
 
 def environment() -> dict[str, str]:
     """The variables that make the venv and the installed workspace one ROS environment, overlay first."""
-    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
     # Python packages are linked (--symlink-install): the modules are found through their build folders.
     linked = [str(BUILD / package.name) for package in packages() if (package / "setup.py").is_file()]
     vendored = sorted(str(folder) for folder in site_packages().glob("ros_*.libs"))
@@ -258,7 +248,7 @@ def environment() -> dict[str, str]:
         "AMENT_PREFIX_PATH": f"{INSTALL}:{VENV}",
         "CMAKE_PREFIX_PATH": f"{INSTALL}:{VENV}",
         "LD_LIBRARY_PATH": ":".join([f"{INSTALL}/lib", f"{VENV}/lib", *vendored]),
-        "PYTHONPATH": ":".join([f"{INSTALL}/lib/{version}/site-packages", *linked]),
+        "PYTHONPATH": ":".join([f"{INSTALL}/lib/{PYTHON}/site-packages", *linked]),
         "PATH": f"{INSTALL}/bin:{VENV}/bin",
         # The wheels' start-up hook would re-execute Python and order LD_LIBRARY_PATH at random.
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
@@ -294,24 +284,17 @@ def packages() -> list[Path]:
     return sorted(path.parent for path in ROOT.glob("*/package.xml"))
 
 
-def is_source(package: Path, path: Path) -> bool:
-    """Whether a file of a package is none that Python or pip has left there."""
-    return not {"__pycache__", "build"} & set(path.relative_to(package).parts)
+def sources(*patterns: str) -> list[Path]:
+    """Files of the packages that match, but for what Python or pip has left there."""
+    found = ((package, path) for package in packages() for pattern in patterns for path in package.rglob(pattern))
+    return [path for package, path in found if not {"__pycache__", "build"} & set(path.relative_to(package).parts)]
 
 
 def build_workspace() -> None:
     """`colcon build` of every package, merged into one installation; Python modules are linked, not copied."""
-    files = [
-        path
-        for package in packages()
-        for pattern in BUILD_INPUTS
-        for path in package.rglob(pattern)
-        if is_source(package, path)
-    ]
     # New and removed modules and executables count as well as changed build files.
-    modules = (path for package in packages() for path in sorted(package.rglob("*.py")) if is_source(package, path))
-    names = " ".join(str(path.relative_to(ROOT)) for path in modules)
-    wanted = digest([*files, Path(__file__).resolve()], names, (VENV / "acts.stamp").read_text())
+    modules = " ".join(str(path.relative_to(ROOT)) for path in sorted(sources("*.py")))
+    wanted = digest([*sources(*BUILD_INPUTS), Path(__file__).resolve()], modules, (VENV / "acts.stamp").read_text())
     stamp = STATE / "build.stamp"
     if up_to_date(stamp, wanted):
         return
@@ -321,27 +304,10 @@ def build_workspace() -> None:
     # Not as the user's own workspaces: ~/.colcon/defaults.yaml may choose packages, or where they go.
     env = {**os.environ, **environment(), "COLCON_DEFAULTS_FILE": os.devnull}
     env["PATH"] = f"{environment()['PATH']}:{os.environ['PATH']}"
-    run(
-        [
-            str(VENV / "bin/colcon"),
-            "--log-base",
-            str(STATE / "log/colcon"),
-            "build",
-            "--base-paths",
-            *[str(package) for package in packages()],
-            "--build-base",
-            str(BUILD),
-            "--install-base",
-            str(INSTALL),
-            "--merge-install",
-            "--symlink-install",
-            "--cmake-args",
-            "-DCMAKE_BUILD_TYPE=Release",
-            f"-DPython3_EXECUTABLE={VENV}/bin/python",
-        ],
-        "build.log",
-        env=env,
-    )
+    colcon = [f"{VENV}/bin/colcon", "--log-base", f"{STATE}/log/colcon", "build"]
+    places = ["--base-paths", *map(str, packages()), "--build-base", f"{BUILD}", "--install-base", f"{INSTALL}"]
+    cmake = ["--cmake-args", "-DCMAKE_BUILD_TYPE=Release", f"-DPython3_EXECUTABLE={VENV}/bin/python"]
+    run([*colcon, *places, "--merge-install", "--symlink-install", *cmake], "build.log", env=env)
     write_first_lines()
     say(f"built in {time.monotonic() - started:.0f} s")
     stamp.write_text(wanted)
