@@ -158,7 +158,7 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
         raise _error(name, value, "", info)
     numbers: Sequence[Any] = converted if isinstance(converted, tuple) else (converted,)
     for number in numbers:
-        if isinstance(number, bool) or not isinstance(number, (int, float)):
+        if not _is_number(number):
             continue
         # Not asked of whole numbers: they always are, and one of 400 digits is no float.
         if isinstance(number, float) and not math.isfinite(number):
@@ -200,31 +200,25 @@ def _from_yaml(text: str) -> Any:
 
 
 def _converted(value: Any, default: SettingValue) -> SettingValue:
-    if isinstance(default, bool):
-        if isinstance(value, bool):
-            return value
-        raise TypeError
-    if isinstance(default, int):
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or value != int(value):
+    """`value` in the type of `default`; raises TypeError, ValueError or OverflowError where it has no such value."""
+    if isinstance(default, tuple):
+        if isinstance(value, str) or not isinstance(value, Sequence):
             raise TypeError
-        return int(value)
-    if isinstance(default, float):
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        # A list of numbers is one of floats, also where the default holds whole ones, or none.
+        of_each = "" if default and isinstance(default[0], str) else 0.0
+        return tuple(cast(Any, _converted(item, of_each)) for item in value)
+    if isinstance(default, (bool, str)):
+        if not isinstance(value, bool if isinstance(default, bool) else str):
             raise TypeError
-        return float(value)
-    if isinstance(default, str):
-        if isinstance(value, str):
-            return value
+        return cast(SettingValue, value)
+    if not _is_number(value) or (isinstance(default, int) and value != int(value)):
         raise TypeError
-    if isinstance(value, str) or not isinstance(value, Sequence):
-        raise TypeError
-    if default and isinstance(default[0], str):
-        if not all(isinstance(item, str) for item in value):
-            raise TypeError
-        return tuple(value)
-    if not all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
-        raise TypeError
-    return tuple(float(item) for item in value)
+    return int(value) if isinstance(default, int) else float(value)
+
+
+def _is_number(value: object) -> bool:
+    """Whether it is one; Python takes a bool for a whole number, too."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _is_power(value: Any) -> bool:
