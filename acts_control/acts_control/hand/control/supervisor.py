@@ -269,36 +269,34 @@ class HandSupervisor:
 
     def _ask(self, sensed: Sensed, is_stale: bool) -> tuple[list[Wish], list[str]]:
         """What is to be done now, that of the highest priority first, and the reflexes that ask for it."""
-        wishes, active = [], []
         limited = self._give_way(sensed)
-        if limited is not None:
-            wishes.append(limited)
-        avoids = ""
-        for name, reflex in self._reflexes.items():
-            if is_stale or sensed.state not in reflex.states:
-                continue
-            wish = reflex.step(sensed)
-            if wish is None:
-                continue
-            wishes.append(wish)
-            active.append(name)
-            if wish.avoids:
-                avoids = avoids or wish.why
+        of_reflexes = {} if is_stale else self._reflex_wishes(sensed)
+        wishes = [*([] if limited is None else [limited]), *of_reflexes.values()]
         # Who claims all joints has the hand: closing waits meanwhile.
         has_hand = any(wish.claimed is not None and wish.claimed.all() for wish in wishes)
         own = None if has_hand and sensed.state is HandState.CLOSING else self._own(sensed, is_stale)
         if own is not None:
             wishes.append(own)
-        if avoids and sensed.state in (HandState.CLOSING, HandState.HOLDING):
-            self._resumed = sensed.state
+        avoids = next((wish.why for wish in of_reflexes.values() if wish.avoids and wish.why), "")
+        self._change_by(wishes, avoids, sensed.state)
+        return wishes, list(of_reflexes)
+
+    def _reflex_wishes(self, sensed: Sensed) -> dict[str, Wish]:
+        """What the reflexes of the present state ask for, by their names and in the order of their priority."""
+        steps = {name: one.step(sensed) for name, one in self._reflexes.items() if sensed.state in one.states}
+        return {name: wish for name, wish in steps.items() if wish is not None}
+
+    def _change_by(self, wishes: Sequence[Wish], avoids: str, state: HandState) -> None:
+        """Change to the state that the wishes of a step ask for; `avoids`: why something is avoided, or nothing."""
+        if avoids and state in (HandState.CLOSING, HandState.HOLDING):
+            self._resumed = state
             self._become(HandState.AVOIDING, avoids)
-        elif not avoids and sensed.state is HandState.AVOIDING:
+        elif not avoids and state is HandState.AVOIDING:
             self._become(self._resumed, "nothing sharp any more")
-        elif sensed.state is HandState.CLOSING:
+        elif state is HandState.CLOSING:
             for wish in wishes:
                 if wish.holds:
                     self._become(HandState.HOLDING, wish.why)
-        return wishes, active
 
     # --- what the supervisor itself does
 
