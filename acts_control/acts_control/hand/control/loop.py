@@ -253,12 +253,7 @@ class HandLoop:
         # Switching on takes many exchanges: goals begin where the joints are after it, or the first would be a leap.
         goal = goal or list(reading.q_rad)
         targets, reason = self._targets(reading, goal, now_s, dt_s)
-        step, moved = self._config.max_speed_rad_s * dt_s, []
-        for k, joint in enumerate(self._hand.joints):
-            target, most = targets.get(k, goal[k]), step
-            if joint.clipped(goal[k]) != goal[k]:
-                target, most = joint.clipped(goal[k]), min(step, RETURN_RAD_S * dt_s)
-            moved.append(goal[k] + min(max(target - goal[k], -most), most))
+        moved = self._nearer(goal, targets, dt_s)
         try:
             self._bus.command(moved)
         except HandLostError:
@@ -277,6 +272,19 @@ class HandLoop:
         if self._wish.is_on and self._wish.is_under_way:
             # Somebody has released and enabled it since the loop looked last: the torque has stayed on.
             self._wish.has_come_on()
+        return moved
+
+    def _nearer(self, goal: Sequence[float], targets: Mapping[int, float], dt_s: float) -> list[float]:
+        """The goals of all joints, moved as far towards their targets as the speed allows; without one they stay.
+
+        What is out of a joint's limits comes back first, and slowly.
+        """
+        step, moved = self._config.max_speed_rad_s * dt_s, []
+        for k, joint in enumerate(self._hand.joints):
+            target, most = targets.get(k, goal[k]), step
+            if joint.clipped(goal[k]) != goal[k]:
+                target, most = joint.clipped(goal[k]), min(step, RETURN_RAD_S * dt_s)
+            moved.append(goal[k] + min(max(target - goal[k], -most), most))
         return moved
 
     def _switch_on(self, reading: HandReading, *, recovered: bool) -> None:
