@@ -114,38 +114,46 @@ class Recording:
         """
         tracks = [track for track in (self._contact, self._contacts, self._joints) if track is not None]
         begin_ns = max((track.stamps_ns[0] for track in tracks), default=0)
+        made = 0
+        for row in self._at_rate(begin_ns) if self.rate_hz else self._one_a_frame(begin_ns):
+            yield row
+            made += 1
+        if not made:
+            raise RecordingError(f"'{self.name}' has no row of {self.skin or '/'}: {self._without_rows()}")
+
+    def _one_a_frame(self, begin_ns: int) -> Iterator[Row]:
+        """A row for each frame since all topics have come once, at `begin_ns`."""
+        first_ns = 0
+        for seen in self._ascending():
+            if seen.stamp_ns < begin_ns:
+                self.early += 1
+                continue
+            first_ns = first_ns or seen.stamp_ns
+            yield self._row(seen.stamp_ns, first_ns, seen)
+
+    def _at_rate(self, begin_ns: int) -> Iterator[Row]:
+        """`rate_hz` rows a second since all topics have come once, each of the newest frame."""
         first_ns, made = 0, 0
         before: Seen | None = None
         for seen in self._ascending():
             # Before all topics have come once, nothing is repeated.
             pause_ns = 0 if before is None else seen.stamp_ns - max(before.stamp_ns, begin_ns)
-            if self.rate_hz and pause_ns > _PAUSE_MAX_S * NS_PER_S:
+            if pause_ns > _PAUSE_MAX_S * NS_PER_S:
                 raise RecordingError(
                     f"'{self.name}' has no frame of {self.skin or '/'} for {pause_ns * 1e-9:.0f} s; "
                     f"rows are repeated for at most {_PAUSE_MAX_S:.0f} s: export it with --rate 0, or record less"
                 )
-            if seen.stamp_ns < begin_ns:
-                self.early += 1
-                if not self.rate_hz:
-                    continue
-            if not self.rate_hz:
-                first_ns = first_ns or seen.stamp_ns
-                yield self._row(seen.stamp_ns, first_ns, seen)
-                made += 1
-            else:
-                first_ns = first_ns or max(seen.stamp_ns, begin_ns)
-                while before is not None and (due_ns := self._due_ns(first_ns, made)) < seen.stamp_ns:
-                    # The last frame before all else has a row after all: it is the newest one then.
-                    self.early -= not made and before.stamp_ns < begin_ns
-                    yield self._row(due_ns, first_ns, before)
-                    made += 1
-            before = seen
-        if self.rate_hz and before is not None:
-            while (due_ns := self._due_ns(first_ns, made)) <= before.stamp_ns:
+            self.early += seen.stamp_ns < begin_ns
+            first_ns = first_ns or max(seen.stamp_ns, begin_ns)
+            while before is not None and (due_ns := self._due_ns(first_ns, made)) < seen.stamp_ns:
+                # The last frame before all else has a row after all: it is the newest one then.
+                self.early -= not made and before.stamp_ns < begin_ns
                 yield self._row(due_ns, first_ns, before)
                 made += 1
-        if not made:
-            raise RecordingError(f"'{self.name}' has no row of {self.skin or '/'}: {self._without_rows()}")
+            before = seen
+        while before is not None and (due_ns := self._due_ns(first_ns, made)) <= before.stamp_ns:
+            yield self._row(due_ns, first_ns, before)
+            made += 1
 
     def _without_rows(self) -> str:
         """Why there is no row."""
