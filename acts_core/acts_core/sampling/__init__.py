@@ -26,6 +26,7 @@ from acts_core.sampling.registry import (
     SCHEMES,
     check_frame,
     check_names,
+    check_sampling,
     frame_size,
 )
 from acts_core.sampling.sampler import MEASUREMENT_US, Sampler, SamplingConfig, measure_in
@@ -48,6 +49,7 @@ __all__ = [
     "SkinMap",
     "check_frame",
     "check_names",
+    "check_sampling",
     "frame_size",
     "measure_in",
     "quota_of",

@@ -13,7 +13,7 @@ from importlib import import_module
 from acts_core.errors import SettingsError
 from acts_core.sampling import schemes
 from acts_core.sampling.basis import CommonSettings, SamplingScheme
-from acts_core.settings import describe
+from acts_core.settings import describe, validate
 
 _NUMBER_MAX = 255
 
@@ -134,6 +134,26 @@ def check_frame(name: str, rows: int, cols: int, m: int) -> None:
     if m > rows * cols and not scheme.measures_all:
         raise SettingsError(f"m = {m}: an array of {rows} x {cols} has {rows * cols} taxels")
     scheme.check_m(rows, cols, m)
+
+
+def check_sampling(scheme: str, config: CommonSettings) -> None:
+    """Check settings of sampling: each for itself, and all of them together for a frame of their scheme.
+
+    Parameters
+    ----------
+    scheme : str
+        Which is one of the settings, too.
+    config : CommonSettings
+
+    Raises
+    ------
+    SettingsError
+        Naming the setting, what was given and what is allowed.
+    """
+    validate(config)
+    check_frame(scheme, config.rows, config.cols, config.m)
+    for own in SCHEMES[scheme].own_settings:
+        own.check(config.own(own), config.rows, config.cols, config.m, scheme)
 
 
 def frame_size(name: str, rows: int, cols: int, m: int) -> int:

@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike
 
 from acts_core.errors import ArrayError
 from acts_core.sampling.basis import CommonSettings, Measure, OwnSetting, Samples, SkinMap, with_fields
-from acts_core.sampling.registry import OWN_SETTINGS, SCHEMES, check_frame, frame_size
-from acts_core.settings import setting, validate
+from acts_core.sampling.registry import OWN_SETTINGS, SCHEMES, check_sampling, frame_size
+from acts_core.settings import setting
 
 MEASUREMENT_US = 17.877
 """Time of one measurement on the paper's board (55,936 samples per second) [us]."""
@@ -43,10 +43,7 @@ class SamplingConfig(_Own, CommonSettings):  # type: ignore[misc]
     scheme: str = setting("adaptive", "how the taxels of a frame are chosen", choices=tuple(SCHEMES))
 
     def __post_init__(self) -> None:
-        validate(self)
-        check_frame(self.scheme, self.rows, self.cols, self.m)
-        for own in SCHEMES[self.scheme].own_settings:
-            own.check(self.own(own), self.rows, self.cols, self.m, self.scheme)
+        check_sampling(self.scheme, self)
 
     @property
     def frame_size(self) -> int:

@@ -21,13 +21,13 @@ from acts_core.sampling import (
     SCHEMES,
     OwnSetting,
     SamplingConfig,
-    check_frame,
     check_names,
+    check_sampling,
     frame_size,
     with_fields,
 )
 from acts_core.sampling.basis import CommonSettings
-from acts_core.settings import setting, validate
+from acts_core.settings import setting
 from acts_core.wire.packets import version_mismatch
 
 OUTPUTS = ("samples", "image", "object")
@@ -102,10 +102,7 @@ class BoardSettings(_Own, CommonSettings):  # type: ignore[misc]
     )
 
     def __post_init__(self) -> None:
-        validate(self)
-        check_frame(self.scheme, self.rows, self.cols, self.m)
-        for own in SCHEMES[self.scheme].own_settings:
-            own.check(self.own(own), self.rows, self.cols, self.m, self.scheme)
+        check_sampling(self.scheme, self)
 
     @classmethod
     def from_sampling(cls, config: SamplingConfig) -> BoardSettings:
