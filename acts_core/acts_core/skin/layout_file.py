@@ -84,19 +84,7 @@ def read_layout(path: Path, rows: int | None, cols: int | None) -> LayoutFile:
         _patch(name, patches.section(name, f"patch {name}"), (rows, cols), (pitch_m, row_pitch_m)) for name in names
     ]
     picture_rows, picture_cols = _picture(top, wired, rows, cols)
-    taxels = np.full((picture_rows, picture_cols), -1, dtype=np.intp)
-    patch_of = np.full((picture_rows, picture_cols), NO_PATCH, dtype=np.uint8)
-    owner: dict[int, str] = {}
-    for index, one in enumerate(wired):
-        _place(one, index, taxels, patch_of, [other.patch.name for other in wired])
-        for taxel in one.taxels.ravel().tolist():
-            if taxel in owner:
-                row, col = divmod(taxel, cols)
-                raise one.section.error(
-                    f"wires: the taxel at row {row}, column {col} of the matrix is under patch {owner[taxel]} already",
-                    "wires",
-                )
-            owner[taxel] = one.patch.name
+    taxels, patch_of = _arranged(wired, (picture_rows, picture_cols), cols)
     if len(wired) == MAX_PATCHES and (taxels < 0).any():
         raise top.error(
             f"patches: {len(wired)}, and places without skin; allowed are {MAX_PATCHES - 1} then", "patches"
@@ -151,23 +139,11 @@ def _patch(name: str, section: Section, matrix: tuple[int, int], pitches_m: tupl
         raise section.error(
             f"at = {shown(at)}: allowed is [row, column] of the picture, each 0 to {MAX_SIDE - 1}", "at"
         )
-    if "wires" not in section.values:
-        raise section.error("wires is missing: which wires of the matrix run down and across the patch")
-    blocks = [_block(block, matrix) for block in section.sections("wires", f"{section.what}: wires")]
-    if not blocks:
-        raise section.error("wires: there has to be at least one block", "wires")
-    if len({block.shape[1] for block in blocks}) > 1:
-        counts = ", ".join(str(block.shape[1]) for block in blocks)
-        raise section.error(f"wires: {counts} wires across; needed are as many in each block", "wires")
-    taxels = np.concatenate(blocks)
+    taxels = _taxels(section, matrix)
     rows, cols = taxels.shape
     if at[0] + rows > MAX_SIDE or at[1] + cols > MAX_SIDE:
         raise section.error(f"{rows} x {cols} taxels at {at}: a picture has up to {MAX_SIDE} rows and columns", "wires")
-    link = section.text("link", "") or ""
-    if link and _LINK.fullmatch(link) is None:
-        raise section.error(f"link = {shown(link)}: a name consists of letters, digits, _ and /", "link")
-    if link and "pose" not in section.values:
-        raise section.error(f"pose is missing: where the patch lies on the link {link}", "link")
+    link = _link(section)
     pitch_m = _length(section, "pitch_m", pitches_m[0])
     default_m = pitch_m if "pitch_m" in section.values else pitches_m[1]
     patch = SkinPatch(
@@ -190,6 +166,29 @@ def _patch(name: str, section: Section, matrix: tuple[int, int], pitches_m: tupl
         taxels,
         section,
     )
+
+
+def _taxels(section: Section, matrix: tuple[int, int]) -> NDArray[np.intp]:
+    """The matrix' taxels under a patch, block by block downwards; shape (rows, cols) of the patch."""
+    if "wires" not in section.values:
+        raise section.error("wires is missing: which wires of the matrix run down and across the patch")
+    blocks = [_block(block, matrix) for block in section.sections("wires", f"{section.what}: wires")]
+    if not blocks:
+        raise section.error("wires: there has to be at least one block", "wires")
+    if len({block.shape[1] for block in blocks}) > 1:
+        counts = ", ".join(str(block.shape[1]) for block in blocks)
+        raise section.error(f"wires: {counts} wires across; needed are as many in each block", "wires")
+    return np.concatenate(blocks)
+
+
+def _link(section: Section) -> str:
+    """The link that a patch lies on, which needs a pose then; empty for none."""
+    link = section.text("link", "") or ""
+    if link and _LINK.fullmatch(link) is None:
+        raise section.error(f"link = {shown(link)}: a name consists of letters, digits, _ and /", "link")
+    if link and "pose" not in section.values:
+        raise section.error(f"pose is missing: where the patch lies on the link {link}", "link")
+    return link
 
 
 def _pose(section: Section) -> Transform:
@@ -283,6 +282,26 @@ def _picture(top: Section, wired: list[_Wired], rows: int, cols: int) -> tuple[i
             "picture",
         )
     return size
+
+
+def _arranged(
+    wired: list[_Wired], picture: tuple[int, int], matrix_cols: int
+) -> tuple[NDArray[np.intp], NDArray[np.uint8]]:
+    """All patches in the picture: the taxel and the patch at each of its places, -1 and `NO_PATCH` without skin."""
+    taxels = np.full(picture, -1, dtype=np.intp)
+    patch_of = np.full(picture, NO_PATCH, dtype=np.uint8)
+    owner: dict[int, str] = {}
+    for index, one in enumerate(wired):
+        _place(one, index, taxels, patch_of, [other.patch.name for other in wired])
+        for taxel in one.taxels.ravel().tolist():
+            if taxel in owner:
+                row, col = divmod(taxel, matrix_cols)
+                raise one.section.error(
+                    f"wires: the taxel at row {row}, column {col} of the matrix is under patch {owner[taxel]} already",
+                    "wires",
+                )
+            owner[taxel] = one.patch.name
+    return taxels, patch_of
 
 
 def _place(one: _Wired, index: int, taxels: NDArray[np.intp], patch_of: NDArray[np.uint8], names: list[str]) -> None:
