@@ -5,11 +5,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
 from acts_control.hand.description import LEAP_RIGHT
-from acts_sim.hand import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M, HandWorldConfig
-from acts_tools.evaluate.hand.scenario import Outcome, Run
+from acts_sim.hand import BLUNT_RADIUS_M, LARGEST_RADIUS_M, SHARP_RADIUS_M, STEP_S, HandWorldConfig
+from acts_tools.evaluate.hand.scenario import Outcome, Run, between_ms
 
 _SPEED_M_S = 0.05
 _TRAVEL_M = 0.006
@@ -18,6 +21,16 @@ _NOTICED_MS = 20.0
 _ALLOWED_M = 0.002
 _OPENS_RAD_S = 0.02
 _FINGERS = ("index", "middle", "ring")
+
+
+@dataclass
+class _Poke:
+    """When the tip of a poke touched, was noticed and the finger opened, if at all [s]; and how deep it went [m]."""
+
+    touched_s: float | None = None
+    noticed_s: float | None = None
+    opened_s: float | None = None
+    deepest_m: float = 0.0
 
 
 def sharp(one: Run) -> Outcome:
@@ -63,29 +76,32 @@ def _poke(one: Run, radius_m: float) -> Outcome:
     joints = [k for k, name in enumerate(LEAP_RIGHT.names) if name in LEAP_RIGHT.fingers[finger].closes]
     row, col = draw.uniform(1.0, 6.0, 2)
     rig.world.tip.poke(patch, radius_m, _SPEED_M_S, _TRAVEL_M, start_m=0.002, row=float(row), col=float(col))
-    touched_s = noticed_s = opened_s = None
-    deepest_m = 0.0
+    poke = _watch_poke(one, rig, patch, joints, before)
+    outcome.details["alarms"] = rig.reflexes["sharp"].events if one.reflex else 0
+    outcome.penetration_mm = 1e3 * poke.deepest_m
+    outcome.noticed_ms = between_ms(poke.touched_s, poke.noticed_s)
+    outcome.stopped_ms = between_ms(poke.noticed_s, poke.opened_s)
+    kept = {region.name for region in rig.regions if region.in_contact}
+    others = {name for name in held if LEAP_RIGHT.regions[name].finger != finger}
+    outcome.kept = others <= kept
+    return outcome
+
+
+def _watch_poke(one: Run, rig: Any, patch: str, joints: list[int], alarms_before: int) -> _Poke:
+    """Watch for `_WATCHED_S` the tip on a patch, the reflex, and the joints that close this finger."""
+    poke = _Poke()
     end_s = rig.time_s + _WATCHED_S
     q_rad = np.array(rig.world.truth.q_rad)
     while rig.time_s < end_s:
         rig.step()
         truth = rig.world.truth
         last, q_rad = q_rad, np.array(truth.q_rad)
-        deepest_m = max(deepest_m, truth.tip_depth_m)
-        if touched_s is None and truth.patches[patch].tip_force_n > 0.0:
-            touched_s = rig.time_s
-        if noticed_s is None and one.reflex and rig.reflexes["sharp"].events > before:
-            noticed_s = rig.time_s
-        opens_rad_s = -float((q_rad - last)[joints].min()) / 0.002
-        if noticed_s is not None and opened_s is None and opens_rad_s > _OPENS_RAD_S:
-            opened_s = rig.time_s
-    outcome.details["alarms"] = rig.reflexes["sharp"].events if one.reflex else 0
-    outcome.penetration_mm = 1e3 * deepest_m
-    if touched_s is not None and noticed_s is not None:
-        outcome.noticed_ms = 1e3 * (noticed_s - touched_s)
-    if noticed_s is not None and opened_s is not None:
-        outcome.stopped_ms = 1e3 * (opened_s - noticed_s)
-    kept = {region.name for region in rig.regions if region.in_contact}
-    others = {name for name in held if LEAP_RIGHT.regions[name].finger != finger}
-    outcome.kept = others <= kept
-    return outcome
+        poke.deepest_m = max(poke.deepest_m, truth.tip_depth_m)
+        if poke.touched_s is None and truth.patches[patch].tip_force_n > 0.0:
+            poke.touched_s = rig.time_s
+        if poke.noticed_s is None and one.reflex and rig.reflexes["sharp"].events > alarms_before:
+            poke.noticed_s = rig.time_s
+        opens_rad_s = -float((q_rad - last)[joints].min()) / STEP_S
+        if poke.noticed_s is not None and poke.opened_s is None and opens_rad_s > _OPENS_RAD_S:
+            poke.opened_s = rig.time_s
+    return poke

@@ -79,3 +79,8 @@ class Outcome:
     penetration_mm: float | None = None
     offset_mm: float | None = None
     details: dict[str, Any] = field(default_factory=dict)
+
+
+def between_ms(first_s: float | None, then_s: float | None) -> float | None:
+    """From one moment to a later one [ms]; None where one of them did not come."""
+    return None if first_s is None or then_s is None else 1e3 * (then_s - first_s)

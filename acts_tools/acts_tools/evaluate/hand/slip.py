@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from acts_sim.hand import HandTruth, HandWorldConfig
-from acts_tools.evaluate.hand.scenario import Outcome, Run
+from acts_tools.evaluate.hand.scenario import Outcome, Run, between_ms
 
 LOADS = (0.5, 1.0, 2.0)
 """Forces, relative to the weight of the object."""
@@ -21,9 +22,25 @@ _WATCHED_S = 1.0
 _HELD_S = 10.0
 _NOTICEABLE_M = 0.0002
 _ALLOWED_M = 0.003
+_KEPT_M = 0.02
 _NOTICED_MS = 15.0
 # Below this speed the object counts as at rest: the foam still yields slightly.
 _STANDS_M_S = 0.010
+
+
+@dataclass
+class _Pull:
+    """When a pulled object moved, slid, was noticed and stood again, if at all [s]; and how far it went and slid [m].
+
+    An object moves without sliding where foam and fingers give way, and a touch that moves along cannot tell.
+    """
+
+    moved_s: float | None = None
+    slid_s: float | None = None
+    noticed_s: float | None = None
+    stood_s: float | None = None
+    farthest_m: float = 0.0
+    slid_m: float = 0.0
 
 
 def run(one: Run) -> Outcome:
@@ -33,44 +50,46 @@ def run(one: Run) -> Outcome:
         return outcome
     load = LOADS[one.seed % len(LOADS)]
     outcome.details["load"] = load
-    slips_before = outcome.details["slips_before"]
-    at = rig.object_m()
-    moved_s = slid_s = noticed_s = stood_s = None
-    farthest_m = slid_m = 0.0
+    pull = _watch_pull(one, rig, load, outcome.details["slips_before"])
+    outcome.kept = not rig.world.truth.object_lost and pull.farthest_m < _KEPT_M
+    outcome.offset_mm = 1e3 * pull.farthest_m
+    outcome.noticed_ms = between_ms(pull.moved_s, pull.noticed_s)
+    outcome.details["slid_mm"] = 1e3 * pull.slid_m
+    noticed_after_sliding_ms = between_ms(pull.slid_s, pull.noticed_s)
+    if noticed_after_sliding_ms is not None:
+        outcome.details["noticed_after_sliding_ms"] = noticed_after_sliding_ms
+    outcome.stopped_ms = between_ms(pull.noticed_s, pull.stood_s)
+    outcome.details["max_grip_n"] = _grip_n(rig)
+    noticed_well = pull.moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
+    outcome.ok = outcome.kept and pull.farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
+    return outcome
+
+
+def _watch_pull(one: Run, rig: Any, load: float, slips_before: int) -> _Pull:
+    """Pull the object by `load` of its weights, and watch it until it is lost, or for `_WATCHED_S`."""
+    pull, at = _Pull(), rig.object_m()
     rig.world.disturbances.pull_down(load, _RAMP_S)
     begin_s = before_s = rig.time_s
     while rig.time_s < begin_s + _WATCHED_S:
         rig.step()
         truth = rig.world.truth
-        slid_m += sliding_m_s(truth) * (rig.time_s - before_s)
+        pull.slid_m += sliding_m_s(truth) * (rig.time_s - before_s)
         before_s = rig.time_s
-        if slid_s is None and slid_m > _NOTICEABLE_M:
-            slid_s = rig.time_s
+        if pull.slid_s is None and pull.slid_m > _NOTICEABLE_M:
+            pull.slid_s = rig.time_s
         # Only along the pull: a grip that tightens also moves the object across it, which is no slip.
-        farthest_m = max(farthest_m, float((np.array(truth.object_position_m) - at) @ rig.world.down))
+        along_m = float((np.array(truth.object_position_m) - at) @ rig.world.down)
+        pull.farthest_m = max(pull.farthest_m, along_m)
         speed_m_s = float(np.array(truth.object_velocity_m_s) @ rig.world.down)
-        if moved_s is None and farthest_m > _NOTICEABLE_M:
-            moved_s = rig.time_s
-        if noticed_s is None and one.reflex and rig.reflexes["slip"].events > slips_before:
-            noticed_s = rig.time_s
-        if noticed_s is not None and stood_s is None and speed_m_s < _STANDS_M_S:
-            stood_s = rig.time_s
+        if pull.moved_s is None and pull.farthest_m > _NOTICEABLE_M:
+            pull.moved_s = rig.time_s
+        if pull.noticed_s is None and one.reflex and rig.reflexes["slip"].events > slips_before:
+            pull.noticed_s = rig.time_s
+        if pull.noticed_s is not None and pull.stood_s is None and speed_m_s < _STANDS_M_S:
+            pull.stood_s = rig.time_s
         if truth.object_lost:
             break
-    outcome.kept = not rig.world.truth.object_lost and farthest_m < 0.02
-    outcome.offset_mm = 1e3 * farthest_m
-    if moved_s is not None and noticed_s is not None:
-        outcome.noticed_ms = 1e3 * (noticed_s - moved_s)
-    # An object moves without sliding where foam and fingers give way, and a touch that moves along cannot tell.
-    outcome.details["slid_mm"] = 1e3 * slid_m
-    if slid_s is not None and noticed_s is not None:
-        outcome.details["noticed_after_sliding_ms"] = 1e3 * (noticed_s - slid_s)
-    if noticed_s is not None and stood_s is not None:
-        outcome.stopped_ms = 1e3 * (stood_s - noticed_s)
-    outcome.details["max_grip_n"] = _grip_n(rig)
-    noticed_well = moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
-    outcome.ok = outcome.kept and farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
-    return outcome
+    return pull
 
 
 def sliding_m_s(truth: HandTruth) -> float:
