@@ -93,8 +93,26 @@ def mean_distance_m(one: Array, other: Array) -> float:
     return float(there.mean() + back.mean()) / 2
 
 
-def _dense(corners: Array) -> Array:
+def way_around(corners: Array) -> tuple[Array, Array]:
+    """The way around a polygon.
+
+    Parameters
+    ----------
+    corners : np.ndarray [shape=(n, 2), dtype=float64]
+        The last is joined to the first [m].
+
+    Returns
+    -------
+    closed : np.ndarray [shape=(n + 1, 2), dtype=float64]
+        The corners, the first one again at the end [m].
+    along_m : np.ndarray [shape=(n + 1,), dtype=float64]
+        How far each is from the first, along the polygon [m].
+    """
     closed = np.vstack((corners, corners[:1]))
-    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))))
+    return closed, np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))))
+
+
+def _dense(corners: Array) -> Array:
+    closed, along = way_around(corners)
     at = np.linspace(0.0, along[-1], max(int(along[-1] / _DENSE_M), 8))
     return np.column_stack([np.interp(at, along, closed[:, k]) for k in (0, 1)])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_recon.outlines.outline import Outline
+from acts_recon.outlines.outline import Outline, way_around
 
 Array = NDArray[np.float64]
 
@@ -96,7 +96,6 @@ def _ring(outline: Outline, z_m: float) -> Array:
     angle = np.arctan2(outline.y_m - centre_y, outline.x_m - centre_x)
     first = int(np.argmin(np.abs(angle)))
     corners = np.roll(np.column_stack((outline.x_m, outline.y_m)), -first, axis=0)
-    closed = np.vstack((corners, corners[:1]))
-    along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))))
+    closed, along = way_around(corners)
     at = along[-1] * np.arange(_CORNERS) / _CORNERS
     return np.column_stack([*(np.interp(at, along, closed[:, k]) for k in (0, 1)), np.full(_CORNERS, z_m)])
