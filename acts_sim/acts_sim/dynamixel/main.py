@@ -24,7 +24,7 @@ from acts_sim.dynamixel.faults import Faults
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import Motor
 from acts_sim.dynamixel.port import BusPort
-from acts_sim.shared import FileClaim, add_settings, settings_from
+from acts_sim.shared import FileClaim, add_settings, require_within, settings_from
 
 _STEP_S = 0.002
 
@@ -45,10 +45,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--control", type=Path, help="Unix socket for faults, one per line: lose 3, unplug ...")
     add_settings(parser, RealtimeConfig)
     options = parser.parse_args(own_words(arguments))
-    for name, low, high in (("motors", 1, 100), ("return_delay", 0, 254), ("baud", 0, 10_000_000)):
-        value = getattr(options, name)
-        if not low <= value <= high:
-            parser.error(f"--{name.replace('_', '-')} {value}: allowed is {low} to {high}")
+    require_within(parser, options, motors=(1, 100), return_delay=(0, 254), baud=(0, 10_000_000))
     if not 0.0 < options.range_rad <= 256.0 * math.tau:
         parser.error(f"--range-rad {options.range_rad}: allowed is above 0 to {256.0 * math.tau:.0f}")
     return options

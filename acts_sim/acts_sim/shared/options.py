@@ -42,3 +42,20 @@ def settings_from(options: argparse.Namespace, settings_class: type[T]) -> T:
     return settings_class(
         **{name: from_text(settings_class, name, text) for name, text in given.items() if text is not None}
     )
+
+
+def require_within(parser: argparse.ArgumentParser, options: argparse.Namespace, **ranges: tuple[float, float]) -> None:
+    """End the program with what is allowed where an option is out of its range.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    options : argparse.Namespace
+        What it has parsed.
+    **ranges : (float, float)
+        Least and largest value, by the option's name with _ between words.
+    """
+    for name, (low, high) in ranges.items():
+        value = getattr(options, name)
+        if not low <= value <= high:
+            parser.error(f"--{name.replace('_', '-')} {value}: allowed is {low} to {high}")

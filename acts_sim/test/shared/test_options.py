@@ -12,7 +12,7 @@ import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
-from acts_sim.shared import add_settings, settings_from
+from acts_sim.shared import add_settings, require_within, settings_from
 
 
 @dataclass(frozen=True)
@@ -56,3 +56,14 @@ def test_help_says_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
     assert "--steps VALUE steps (1 to 9); 3" in told
     assert "whether 100 % are on; True" in told
     assert "--cores VALUE cores --q-rad" in told
+
+
+def test_an_option_out_of_its_range_is_refused_with_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
+    parser = argparse.ArgumentParser(prog="simulated")
+    parser.add_argument("--lead-ms", type=float)
+    for text in ("2", "20"):
+        require_within(parser, parser.parse_args(["--lead-ms", text]), lead_ms=(2.0, 20.0))
+    for text in ("1.9", "20.1", "nan"):
+        with pytest.raises(SystemExit):
+            require_within(parser, parser.parse_args(["--lead-ms", text]), lead_ms=(2.0, 20.0))
+        assert f"simulated: error: --lead-ms {text}: allowed is 2.0 to 20.0\n" in capsys.readouterr().err

@@ -21,7 +21,7 @@ from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_sim.hand.process.loop import HandWorldLoop
-from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, settings_from
+from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, require_within, settings_from
 
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
@@ -44,10 +44,7 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
     add_settings(parser, RealtimeConfig)
     add_settings(parser.add_argument_group("the world"), HandWorldConfig)
     options = parser.parse_args(own_words(arguments))
-    for name, low, high in (("baud", 0, 10_000_000), ("lead_ms", 2.0, 20.0)):
-        value = getattr(options, name)
-        if not low <= value <= high:
-            parser.error(f"--{name.replace('_', '-')} {value}: allowed is {low} to {high}")
+    require_within(parser, options, baud=(0, 10_000_000), lead_ms=(2.0, 20.0))
     run_dir = default_run_dir()
     options.link = options.link or run_dir / "hand"
     options.field_ring = options.field_ring or run_dir / "field.ring"
