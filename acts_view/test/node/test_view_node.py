@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import tracemalloc
 from array import array
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -39,13 +38,6 @@ from acts_view.skin.snapshot import SkinShape
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 176
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    made = Bench(DOMAIN_ID)
-    yield made
-    made.close()
 
 
 def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_afterwards(bench: Bench) -> None:

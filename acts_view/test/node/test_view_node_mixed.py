@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -18,13 +17,6 @@ from acts_ros import qos
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 204
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    made = Bench(DOMAIN_ID)
-    yield made
-    made.close()
 
 
 def test_a_second_publisher_of_a_skin_is_named_until_it_is_gone(bench: Bench) -> None:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -18,13 +17,6 @@ from acts_ros import qos
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 203
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    made = Bench(DOMAIN_ID)
-    yield made
-    made.close()
 
 
 def seen(bench: Bench) -> dict[str, Any]:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -19,13 +18,6 @@ from acts_ros import qos
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 154
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    made = Bench(DOMAIN_ID)
-    yield made
-    made.close()
 
 
 @pytest.mark.parametrize("presses", [0, 1])

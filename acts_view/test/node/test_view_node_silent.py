@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import time
 from array import array
-from collections.abc import Iterator
 from types import SimpleNamespace
 
 import pytest
@@ -20,13 +19,6 @@ from acts_view.nodes import skin_topics
 pytestmark = pytest.mark.slow
 
 DOMAIN_ID = 210
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    made = Bench(DOMAIN_ID)
-    yield made
-    made.close()
 
 
 @pytest.fixture
