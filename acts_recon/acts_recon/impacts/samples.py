@@ -201,17 +201,10 @@ class RecentSamples:
         taxel = np.concatenate([one[2] for one in self._frames])
         reach_m = _AROUND_TAXELS * max(geometry.pitch_m, geometry.pitch_y_m)
         around = self._lies_near(slice(None), x_m, y_m, reach_m, patch)
-        least = _NOISES * self._noise_counts
-        shown_n = np.where(
-            self._patch_of == patch, self._force(np.where(image.ravel() > least, image.ravel(), 0.0)), 0.0
-        )
-        most = int(np.where(around, shown_n, 0.0).argmax())
-        if not around[most] or shown_n[most] <= 0:
+        pressing = self._pressing(around, patch, image)
+        if pressing is None:
             return None
-        share = _hill((shown_n / shown_n[most]).reshape(image.shape), most).ravel()
-        middle_x_m, middle_y_m = (float(share @ at) / float(share.sum()) for at in (self._x_m, self._y_m))
-        if not share[self._nearest(middle_x_m, middle_y_m)]:  # of a ring
-            middle_x_m, middle_y_m = float(self._x_m[most]), float(self._y_m[most])
+        share, middle_x_m, middle_y_m = pressing
         dx_m, dy_m = self._x_m - middle_x_m, self._y_m - middle_y_m
         middle = (np.hypot(dx_m / geometry.pitch_m, dy_m / geometry.pitch_y_m) <= _MIDDLE_TAXELS) & (share > 0)
         begun = (time_s >= first_s) & (time_s <= last_s)
@@ -219,16 +212,13 @@ class RecentSamples:
         for place in np.flatnonzero(middle):
             own = np.flatnonzero(begun & (taxel == place))
             own = own[np.argsort(time_s[own])][:: 1 + own.size // _MOST_OF_A_RISE]
-            pressed = counts[own] > self._touch_counts
-            if not pressed.any():
-                continue
-            enough = int(pressed.argmax())
-            force_n = self._force(counts[own])
-            risen = enough + int(np.argmax(force_n[enough:] >= _RISEN * force_n.max())) + 1
-            parts.append(own[:risen])
-            felt_s.append(float(time_s[own[enough]]))
+            rising, first = self._rising(counts[own])
+            if rising:
+                parts.append(own[:rising])
+                felt_s.append(float(time_s[own[first]]))
         if not parts:
             return None
+        least = _NOISES * self._noise_counts
         kept = np.concatenate(parts)
         counts, number = counts[kept], np.repeat(np.arange(len(parts)), [part.size for part in parts])
         whole = np.clip(np.rint(np.maximum(counts, least)), 0, self._force_n.size - 2).astype(np.intp)
@@ -246,6 +236,38 @@ class RecentSamples:
             area_m2=float(share.sum()) * geometry.taxel_area_m2,
             blur_m2=spread_m**2 + (geometry.pitch_m**2 + geometry.pitch_y_m**2) / 24,
         )
+
+    def _pressing(
+        self, around: NDArray[np.bool_], patch: int, image: NDArray[np.float32]
+    ) -> tuple[Array, float, float] | None:
+        """What presses near a place: the share of each taxel that belongs to it, and x and y of its middle [m].
+
+        None where nothing does. `around` are the taxels near the place.
+        """
+        least = _NOISES * self._noise_counts
+        shown_n = np.where(
+            self._patch_of == patch, self._force(np.where(image.ravel() > least, image.ravel(), 0.0)), 0.0
+        )
+        most = int(np.where(around, shown_n, 0.0).argmax())
+        if not around[most] or shown_n[most] <= 0:
+            return None
+        share = _hill((shown_n / shown_n[most]).reshape(image.shape), most).ravel()
+        x_m, y_m = (float(share @ at) / float(share.sum()) for at in (self._x_m, self._y_m))
+        if not share[self._nearest(x_m, y_m)]:  # of a ring
+            x_m, y_m = float(self._x_m[most]), float(self._y_m[most])
+        return share, x_m, y_m
+
+    def _rising(self, counts: Array) -> tuple[int, int]:
+        """How many of a taxel's samples, in order of time, are of the rise, and which is the first that is pressed.
+
+        No sample is of the rise where none is pressed.
+        """
+        pressed = counts > self._touch_counts
+        if not pressed.any():
+            return 0, 0
+        first = int(pressed.argmax())
+        force_n = self._force(counts)
+        return first + int(np.argmax(force_n[first:] >= _RISEN * force_n.max())) + 1, first
 
     def _nearest(self, x_m: float, y_m: float) -> int:
         """The taxel nearest to a place."""
