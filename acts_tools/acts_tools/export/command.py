@@ -6,26 +6,19 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from acts_core.errors import RecordingError
-from acts_core.words import counted
 from acts_tools.arguments import refuse_unused
-
-if TYPE_CHECKING:
-    from acts_tools.export.recording import Recording
 
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LAYOUT = "square"
 _LEROBOT_HZ = 30.0
 _RATE_MAX_HZ = 10_000.0
-_NOTES_FILE = "notes.txt"
-
 
 _EPILOG = """\
 examples:
@@ -91,39 +84,15 @@ def run(arguments: argparse.Namespace) -> int:
         refuse_unused(arguments, f"with --to {kind}", "task")
     output = _new_output(arguments)
     # Imported here, because they are slow to import and an invalid command line does not need them.
-    from acts_tools.export.lerobot import LeRobotWriter
-    from acts_tools.export.recording import open_recording
-    from acts_tools.export.tables import write_csv, write_npz, write_parquet
     from acts_tools.export.topics import Choice
+    from acts_tools.export.writing import write_bags
 
     # Learning has no use for a NaN: it would spread into the statistics of the dataset.
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
-    writer: LeRobotWriter | None = None
-    notes: list[str] = []
-    uses_layout = False
     try:
         with _folder_beside(output) as folder:
             begun = folder / output.name
-            for bag in bags:
-                with open_recording(bag, choice) as recording:
-                    uses_layout = uses_layout or recording.uses_layout
-                    if bag is bags[-1] and arguments.layout != _LAYOUT and not uses_layout:
-                        raise RecordingError(
-                            f"--layout {arguments.layout} is of no use: it is for what is recovered from samples, and "
-                            f"images and contacts of {recording.skin or '/'} are exported as they were recorded"
-                        )
-                    if kind == "lerobot":
-                        writer = writer or LeRobotWriter(begun, int(rate_hz), arguments.task)
-                        n_rows = writer.add(recording)
-                    else:
-                        write = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}[kind]
-                        n_rows = write(recording, begun)
-                    _tell(bag, recording, n_rows)
-                    notes += [f"{bag.resolve().name}: {sentence}\n" for sentence in recording.notes()]
-            if notes and kind != "npz":
-                (begun / _NOTES_FILE).write_text("".join(notes))
-            if writer is not None:
-                writer.close()
+            write_bags(bags, kind, choice, arguments.task, begun)
             begun.rename(output)
     except OSError as error:
         raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
@@ -145,13 +114,6 @@ def _folder_beside(output: Path) -> Iterator[Path]:
             # One in which there is something is kept by the system.
             with suppress(OSError):
                 parent.rmdir()
-
-
-def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
-    joints = f", {counted(len(recording.joint_columns), 'joint column')}" if recording.joint_columns else ""
-    print(f"{bag}: {counted(n_rows, 'row')} of {recording.skin or '/'}{joints}")
-    for sentence in recording.notes():
-        print(f"{bag}: {sentence}", file=sys.stderr)
 
 
 def _rate_hz(arguments: argparse.Namespace) -> float:
