@@ -78,53 +78,56 @@ def measure_untouched(record: FrameRecord) -> Untouched:
 
 def judge_untouched(skin: Untouched, thresholds: Thresholds) -> list[Finding]:
     """What of this is a fault, but for taxels that read high: whether those are stuck, touching them tells."""
-    findings = []
+    return [*_judge_coverage(skin), _judge_noise(skin, thresholds), _judge_baseline(skin)]
+
+
+def _judge_coverage(skin: Untouched) -> list[Finding]:
+    """A warning of taxels that were never measured; nothing where there are none."""
     unseen = _where(skin.readings == 0)
-    if unseen:
-        findings.append(
-            Finding(
-                Level.WARN,
-                "measured",
-                f"{len(unseen)} of {skin.readings.size} taxels were never measured",
-                "let the board sample raster, or uniform or random for longer",
-            )
+    if not unseen:
+        return []
+    return [
+        Finding(
+            Level.WARN,
+            "measured",
+            f"{len(unseen)} of {skin.readings.size} taxels were never measured",
+            "let the board sample raster, or uniform or random for longer",
         )
+    ]
+
+
+def _judge_noise(skin: Untouched, thresholds: Thresholds) -> Finding:
     noise = skin.noise_counts
     typical = float(np.nanmedian(noise)) if not np.isnan(noise).all() else 0.0
-    loud = _where(noise > thresholds.noise_fail_counts)
-    uneasy = _where(noise > max(thresholds.noise_ratio * typical, thresholds.noise_warn_counts))
     is_noisier = "taxel is noisier than", "taxels are noisier than"
+    loud = _where(noise > thresholds.noise_fail_counts)
     if loud:
-        findings.append(
-            Finding(
-                Level.FAIL,
-                "noise",
-                f"{counted(len(loud), *is_noisier)} {thresholds.noise_fail_counts:g} counts: {taxels_listed(loud)}",
-                "a loose contact, or something that moved on the skin: repeat it untouched, check the connector",
-                taxels=loud,
-            )
+        return Finding(
+            Level.FAIL,
+            "noise",
+            f"{counted(len(loud), *is_noisier)} {thresholds.noise_fail_counts:g} counts: {taxels_listed(loud)}",
+            "a loose contact, or something that moved on the skin: repeat it untouched, check the connector",
+            taxels=loud,
         )
-    elif uneasy:
-        findings.append(
-            Finding(
-                Level.WARN,
-                "noise",
-                f"{counted(len(uneasy), *is_noisier)} the others ({typical:.1f} counts): {taxels_listed(uneasy)}",
-                "repeat it untouched; look for a loose contact where it comes again",
-                taxels=uneasy,
-            )
+    uneasy = _where(noise > max(thresholds.noise_ratio * typical, thresholds.noise_warn_counts))
+    if uneasy:
+        return Finding(
+            Level.WARN,
+            "noise",
+            f"{counted(len(uneasy), *is_noisier)} the others ({typical:.1f} counts): {taxels_listed(uneasy)}",
+            "repeat it untouched; look for a loose contact where it comes again",
+            taxels=uneasy,
         )
-    else:
-        findings.append(Finding(Level.PASS, "noise", f"{typical:.1f} counts (median), at most {np.nanmax(noise):.1f}"))
+    return Finding(Level.PASS, "noise", f"{typical:.1f} counts (median), at most {np.nanmax(noise):.1f}")
+
+
+def _judge_baseline(skin: Untouched) -> Finding:
     baseline = skin.baseline_counts
-    findings.append(
-        Finding(
-            Level.PASS,
-            "baseline",
-            f"{np.nanmedian(baseline):.0f} counts (median), {np.nanmin(baseline):.0f} to {np.nanmax(baseline):.0f}",
-        )
+    return Finding(
+        Level.PASS,
+        "baseline",
+        f"{np.nanmedian(baseline):.0f} counts (median), {np.nanmin(baseline):.0f} to {np.nanmax(baseline):.0f}",
     )
-    return findings
 
 
 def high_taxels(skin: Untouched, thresholds: Thresholds) -> tuple[tuple[int, int], ...]:
