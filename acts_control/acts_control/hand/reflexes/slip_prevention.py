@@ -160,19 +160,7 @@ class SlipPrevention(Reflex):
         config, state = self.config, self.state
         told = self._grown(sensed) if sensed.is_new else ""
         if told:
-            if not state.is_slipping:
-                self.events += 1
-                # It did not hold with this: easing ends above.
-                state.floor = max(state.floor, state.added)
-                state.goals = state.goals or AddedGoals(sensed.goal_rad)
-                state.goals.slips_again(sensed.goal_rad)
-            if sensed.time_s - state.grown_s > config.slip_settle_s:
-                state.first_s, state.on_m = sensed.time_s, {}
-                state.most = min(state.added + config.slip_first_steps, config.slip_max_added_steps)
-            if self._goes_on(sensed):
-                state.most = config.slip_max_added_steps
-            state.is_slipping = True
-            state.grown_s = sensed.time_s
+            self._note_slip(sensed)
         elif sensed.time_s - state.grown_s > config.slip_quiet_s:
             state.is_slipping = False
         cycles = sensed.dt_s * 60.0
@@ -193,6 +181,23 @@ class SlipPrevention(Reflex):
         if steps < 0.0 and above is not None:
             wanted *= above
         return Wish(wanted, why, at_once=steps > 0.0)
+
+    def _note_slip(self, sensed: Sensed) -> None:
+        """Note that a pattern has moved on: whether a slip begins with it, and how much may be added to the grip."""
+        config, state = self.config, self.state
+        if not state.is_slipping:
+            self.events += 1
+            # It did not hold with this: easing ends above.
+            state.floor = max(state.floor, state.added)
+            state.goals = state.goals or AddedGoals(sensed.goal_rad)
+            state.goals.slips_again(sensed.goal_rad)
+        if sensed.time_s - state.grown_s > config.slip_settle_s:
+            state.first_s, state.on_m = sensed.time_s, {}
+            state.most = min(state.added + config.slip_first_steps, config.slip_max_added_steps)
+        if self._goes_on(sensed):
+            state.most = config.slip_max_added_steps
+        state.is_slipping = True
+        state.grown_s = sensed.time_s
 
     def _goes_on(self, sensed: Sensed) -> bool:
         config, state = self.config, self.state
