@@ -178,6 +178,19 @@ class DriverReport:
     def _judge(self, added: Totals, fine: str, *, is_silent: bool) -> tuple[int, str]:
         if not self._reader.connected:
             return ERROR, self._reader.problem or f"{self._source.name} is closed"
+        troubles = self._troubles(added, is_silent=is_silent)
+        if is_silent:
+            why = f" ({self._source.silence})" if self._source.silence else ""
+            return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])
+        if self._wrong_size:
+            # Between two frames of a slow board it is as it was.
+            return ERROR, ", ".join(troubles if added.frames else [self._wrong_size, *troubles])
+        if troubles:
+            return WARN, ", ".join(troubles)
+        return OK, fine
+
+    def _troubles(self, added: Totals, *, is_silent: bool) -> list[str]:
+        """What is wrong with what has come since the last report; remembers what is told of frames of a wrong size."""
         troubles = [counted(getattr(added, name), *words) for name, words in _TROUBLES.items() if getattr(added, name)]
         if added.frames:
             self._wrong_size = ""
@@ -198,15 +211,7 @@ class DriverReport:
         if delay_us > _LATE_US:
             late = f"frames are read {delay_us / 1e6:.1f} s late"
             troubles.insert(0, f"{late}: this machine is too slow or too busy (acts doctor tells)")
-        if is_silent:
-            why = f" ({self._source.silence})" if self._source.silence else ""
-            return ERROR, ", ".join([f"no frames from {self._source.name}{why}", *troubles])
-        if self._wrong_size:
-            # Between two frames of a slow board it is as it was.
-            return ERROR, ", ".join(troubles if added.frames else [self._wrong_size, *troubles])
-        if troubles:
-            return WARN, ", ".join(troubles)
-        return OK, fine
+        return troubles
 
 
 def _with_board(level: int, message: str, board: BoardStatus, *, is_needed: bool) -> tuple[int, str]:
