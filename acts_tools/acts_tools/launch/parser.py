@@ -271,10 +271,7 @@ def _command_line(text: str | None) -> tuple[Template, ...]:
         if not isinstance(piece, Text):
             word.append(piece)
             continue
-        try:
-            tokens = shlex.split(piece.text)
-        except ValueError as error:
-            raise LaunchError(f"cannot split args into words: {error} in `{piece.text}`") from error
+        tokens = _split(piece.text)
         if not tokens:
             finish_word()
             continue
@@ -289,6 +286,13 @@ def _command_line(text: str | None) -> tuple[Template, ...]:
     if word:
         finish_word()
     return tuple(words)
+
+
+def _split(text: str) -> list[str]:
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise LaunchError(f"cannot split args into words: {error} in `{text}`") from error
 
 
 _TAGS: dict[str, Callable[[Element, Condition | None], AnyAction]] = {

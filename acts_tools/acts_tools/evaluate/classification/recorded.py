@@ -10,13 +10,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import RecordingError
 from acts_core.files import FramesFile, without_contact
 from acts_core.words import counted
 from acts_recon.objects import ImageClassifierConfig, build_object_library
-from acts_tools.evaluate.classification.contenders import SCHEMES, contenders
+from acts_tools.evaluate.classification.contenders import SCHEMES, Contender, contenders
 from acts_tools.evaluate.classification.trials import accuracy, answers
 from acts_tools.evaluate.images.options import require_frames
 
@@ -83,17 +84,20 @@ def run_recorded(
             for number, wanted in zip(asked, truth, strict=True):
                 show(done / (len(ms) * len(judged) * len(asked)))
                 done += 1
-                start, length = recorded.start[number], recorded.length[number]
-                frames = np.ascontiguousarray(flat[start : start + length])
-                peak_s = (peaks[number] - start) / recorded.rate_hz
-                # The last frame of samples that ends by the strongest frame; the first frame is held before.
-                before_s = min(peak_s, _RUN_UP_S)
-                found = answers(contender, frames, recorded.rate_hz, peak_s, [0.0], run_up_s=before_s)
-                right += found[0] == wanted
+                start = recorded.start[number]
+                frames = flat[start : start + recorded.length[number]]
+                right += _answer(contender, frames, recorded.rate_hz, peaks[number] - start) == wanted
             over_m[method].append({"m": m, **accuracy(right, len(asked))})
         over_m[NEAREST].append({"m": m, **accuracy(int((nearest == truth).sum()), len(asked))})
         write(results)
     return results
+
+
+def _answer(contender: Contender, frames: NDArray[np.uint16], rate_hz: float, peak: int) -> int | None:
+    """What is answered to the strongest frame of a recording, by its number in the recording."""
+    peak_s = peak / rate_hz
+    # The last frame of samples that ends by the strongest frame; the first frame is held before.
+    return answers(contender, np.ascontiguousarray(frames), rate_hz, peak_s, [0.0], run_up_s=min(peak_s, _RUN_UP_S))[0]
 
 
 def _split(recorded: FramesFile, touched: Sequence[bool]) -> tuple[list[int], list[int]]:
