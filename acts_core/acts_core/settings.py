@@ -126,7 +126,13 @@ def describe(settings_class: type) -> dict[str, SettingInfo]:
 
 
 def default_of(settings_class: type, name: str) -> SettingValue:
-    """Default of one setting."""
+    """Default of one setting.
+
+    Raises
+    ------
+    SettingsError
+        The class has no setting of that name.
+    """
     for field in dataclasses.fields(settings_class):
         if field.name == name:
             return cast(SettingValue, field.default)

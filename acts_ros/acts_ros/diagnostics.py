@@ -24,7 +24,7 @@ Report = tuple[int, str, Mapping[str, object]]
 
 
 class DiagnosticsReporter:
-    """Calls `report` once a second and publishes what it returns.
+    """Calls `report` again and again, and publishes what it returns.
 
     Parameters
     ----------
@@ -37,6 +37,8 @@ class DiagnosticsReporter:
     only_publishers : sequence of str
         Topics that one node is meant to publish, this one or one that it listens to; with a second one the level is at
         least WARN.
+    period_s : float
+        From one report to the next [s].
 
     Attributes
     ----------
@@ -78,6 +80,8 @@ class DiagnosticsReporter:
         ----------
         message : str
             What takes so long.
+        period_s : float
+            From one warning to the next [s].
         """
         is_over = threading.Event()
 

@@ -124,6 +124,11 @@ def letter(name: str, height_m: float, width_m: float) -> list[Stroke]:
         "N", "B" or "I".
     height_m, width_m : float
         Of the letter [m]; I has no width.
+
+    Raises
+    ------
+    SettingsError
+        For another letter.
     """
     right, top = width_m / 2, height_m / 2
     if name == "N":

@@ -94,6 +94,11 @@ def measure_in(field: ArrayLike) -> Measure:
     ----------
     field : array_like [shape=(rows, cols), dtype=any integer]
         ADC counts of every taxel.
+
+    Raises
+    ------
+    ArrayError
+        For any other shape or type.
     """
     image = np.asarray(field)
     if image.ndim != 2 or image.dtype.kind not in "iu":

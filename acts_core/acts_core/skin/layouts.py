@@ -147,7 +147,13 @@ class Layout:
         return replace(self, pitch_m=after.pitch_m, row_pitch_m=after.pitch_y_m, patches=tuple(patches))
 
     def patch(self, row: int, col: int) -> SkinPatch:
-        """The patch that holds a place of the picture."""
+        """The patch that holds a place of the picture.
+
+        Raises
+        ------
+        ArrayError
+            None does: the place is without skin, or out of the picture.
+        """
         for patch in self.patches:
             if patch.holds(row, col):
                 return patch

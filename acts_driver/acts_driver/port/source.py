@@ -66,7 +66,10 @@ class Source(Protocol):
         """
 
     def discard(self) -> None:
-        """Throw away what has arrived and was not read; on the thread that reads."""
+        """Throw away what has arrived and was not read; on the thread that reads.
+
+        Raises `PortError` when the stream was lost.
+        """
 
     def close(self) -> None:
         """Let go of the stream."""
@@ -171,7 +174,7 @@ class SerialSource:
             poll.poll(min(left_s, _WRITE_SLICE_S) * 1000)
 
     def discard(self) -> None:
-        """Throw away what has arrived and was not read."""
+        """See `Source`."""
         try:
             termios.tcflush(self._fd, termios.TCIFLUSH)
         except termios.error as error:

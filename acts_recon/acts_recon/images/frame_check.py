@@ -49,7 +49,13 @@ def why_refused(code: int, indices: NDArray[np.uint16], counts: NDArray[np.uint1
 
 
 def place_table(layout: Layout, geometry: ArrayGeometry) -> NDArray[np.uint16]:
-    """Places in the picture by matrix index; an index that is out of range stays so. Shape (65536,), uint16."""
+    """Places in the picture by matrix index; an index that is out of range stays so. Shape (65536,), uint16.
+
+    Raises
+    ------
+    ArrayError
+        The picture of the layout is not as large as the geometry.
+    """
     if (layout.rows, layout.cols) != (geometry.rows, geometry.cols):
         raise ArrayError(
             f"geometry of {geometry.rows} x {geometry.cols}: the layout {layout.name} is {layout.rows} x {layout.cols}"

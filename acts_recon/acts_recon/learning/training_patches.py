@@ -31,11 +31,13 @@ def random_patches(
     Parameters
     ----------
     frames : np.ndarray [shape=(n, rows, cols), dtype=number]
-        Full frames [counts]. Values at or below `touch_counts` are taken as 0.
+        Full frames [counts].
     n_patches : int
         How many places to try.
     size : int
         Side of a patch.
+    touch_counts : float
+        A taxel above is pressed; others are taken as 0.
     min_active : int
         Pressed pixels that a patch needs. The paper keeps patches with more than 15 ("Tactile Dictionary Learning").
     rng : np.random.Generator

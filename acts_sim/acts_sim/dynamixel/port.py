@@ -76,7 +76,13 @@ class BusPort:
         return self._master >= 0
 
     def plug_in(self) -> None:
-        """Connect the adapter: a new pseudo-terminal under the same link."""
+        """Connect the adapter: a new pseudo-terminal under the same link.
+
+        Raises
+        ------
+        RobotError
+            The link cannot be made.
+        """
         if self._master >= 0:
             return
         self._master, self._slave = os.openpty()

@@ -190,7 +190,14 @@ class Aim:
         self.is_large = False
 
     def step(self, sensed: Sensed, gripping: Sequence[str]) -> tuple[Array, bool]:
-        """Steps of all fingers, and whether they are still on their way."""
+        """Steps of all fingers, shape (joints,), and whether they are still on their way.
+
+        Parameters
+        ----------
+        sensed : Sensed
+        gripping : sequence of str
+            Fingers that press hard enough already.
+        """
         felt = aiming.felt_by_palm(sensed, _WIDEST_M)
         if felt is not None:
             self._at_m, self._up = felt

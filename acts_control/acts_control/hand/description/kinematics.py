@@ -102,18 +102,18 @@ class HandPose:
         self._kinematics = kinematics
 
     def point(self, link: str, point_m: ArrayLike) -> Array:
-        """A point of a link, from its frame [m]."""
+        """A point of a link, from its frame; shape (3,) both [m]."""
         k = self._kinematics.number(link)
         moved: Array = self.rotation[k] @ np.asarray(point_m) + self.origin[k]
         return moved
 
     def direction(self, link: str, vector: ArrayLike) -> Array:
-        """A direction, from a link's frame."""
+        """A direction, from a link's frame; shape (3,) both."""
         turned: Array = self.rotation[self._kinematics.number(link)] @ np.asarray(vector)
         return turned
 
     def tip(self, finger: str) -> Array:
-        """The tip of a finger [m]."""
+        """The tip of a finger, shape (3,) [m]."""
         one = self._kinematics.hand.fingers[finger]
         return self.point(one.tip_link, one.tip_m)
 

@@ -72,7 +72,13 @@ class SkinMap:
 
     @classmethod
     def of_matrix(cls, rows: int, cols: int) -> SkinMap:
-        """That of a matrix that is the picture itself, and one patch: what a board has that was told none."""
+        """That of a matrix that is the picture itself, and one patch: what a board has that was told none.
+
+        Raises
+        ------
+        ArrayError
+            For a size that no board has.
+        """
         if not (1 <= rows <= MAX_SIDE and 1 <= cols <= MAX_SIDE):
             raise ArrayError(f"matrix of {rows} x {cols}: allowed is 1 to {MAX_SIDE} each")
         return cls(rows, cols, tuple(range(rows * cols)), (0,) * (rows * cols))

@@ -181,6 +181,8 @@ def learn(
 
     Parameters
     ----------
+    run : Run
+        Its seed is taken.
     items : sequence of ContactObject
     atoms, patches, frames : int
         How many there are.

@@ -92,7 +92,7 @@ class Sensed:
         return [one for name, one in self.regions.items() if self.hand.regions[name].finger == finger]
 
     def steps(self) -> Array:
-        """An answer of no step, to be filled in."""
+        """An answer of no step, to be filled in; shape (joints,)."""
         return np.zeros(len(self.q_rad))
 
     def moving_joints(self) -> dict[str, int]:

@@ -52,6 +52,11 @@ def felt_by_palm(sensed: Sensed, widest_m: float) -> tuple[Array, Array] | None:
     sensed : Sensed
     widest_m : float
         Spread of a contact above which it is none of a sphere [m].
+
+    Returns
+    -------
+    at_m, up : np.ndarray [shape=(3,)]
+        The place, and a unit vector, in the frame of the hand's base [m]. None where there is no such contact.
     """
     for one in sensed.of_finger(""):
         if one.in_contact and one.spread_m <= widest_m:
@@ -60,7 +65,15 @@ def felt_by_palm(sensed: Sensed, widest_m: float) -> tuple[Array, Array] | None:
 
 
 def radius_on_palm(at_m: Array, up: Array, points_m: Sequence[Array]) -> float | None:
-    """Radius of the sphere that touches the palm at one point and fingers at others; None where they do not say [m]."""
+    """Radius of the sphere that touches the palm at one point and fingers at others; None where they do not say [m].
+
+    Parameters
+    ----------
+    at_m, up : np.ndarray [shape=(3,)]
+        Where it lies on the palm [m], and the unit vector out of the palm there.
+    points_m : sequence of np.ndarray [shape=(3,)]
+        Where fingers touch it [m]. Those that are hardly above the palm say nothing.
+    """
     away = np.array(points_m).reshape(-1, 3) - at_m
     heights = away @ up
     away, heights = away[heights > 0.002], heights[heights > 0.002]
@@ -85,7 +98,15 @@ class Approach(NamedTuple):
     part: Literal["over", "beside", "against"]
 
     def on_sphere(self, up: Array, radius_m: float) -> Array:
-        """Where its tip belongs: unit vector from the sphere's middle."""
+        """Where its tip belongs: unit vector from the sphere's middle, shape (3,).
+
+        Parameters
+        ----------
+        up : np.ndarray [shape=(3,)]
+            Unit vector out of the palm.
+        radius_m : float
+            Of the sphere [m].
+        """
         height_rad = _HEIGHT_RAD[self.part]
         if self.part == "over":
             share = np.clip((radius_m - _SMALLEST_M) / (_LARGE_M - _SMALLEST_M), 0.0, 1.0)
@@ -103,6 +124,17 @@ def approaches(sensed: Sensed, at_m: Array, up: Array) -> dict[str, Approach]:
     """From where each finger comes to something on the palm.
 
     By where their roots are in the flat hand, seen from there: so parts change with the place.
+
+    Parameters
+    ----------
+    sensed : Sensed
+    at_m, up : np.ndarray [shape=(3,)]
+        Where it lies [m], and the unit vector out of the palm there.
+
+    Returns
+    -------
+    dict of str to Approach
+        By finger; those of which no region is known are left out.
     """
     flat = sensed.kinematics.at(sensed.steps())
     roots, sides = {}, {}
@@ -159,7 +191,22 @@ def _tip(sensed: Sensed, finger: str) -> Region:
 
 
 def reach(sensed: Sensed, finger: str, to_m: Array, facing: Array, speed_m_s: float) -> Array:
-    """Joint speeds that bring the pad of a fingertip to a point, facing a direction [rad/s]."""
+    """Joint speeds that bring the pad of a fingertip to a point, facing a direction.
+
+    Parameters
+    ----------
+    sensed : Sensed
+    finger : str
+    to_m, facing : np.ndarray [shape=(3,)]
+        The point [m], and a unit vector.
+    speed_m_s : float
+        No faster than this [m/s].
+
+    Returns
+    -------
+    np.ndarray [shape=(joints,)]
+        [rad/s]
+    """
     region, pose = _tip(sensed, finger), sensed.pose
     at, normal = pose.point(region.link, region.centre_m), pose.direction(region.link, region.normal)
     moves = pose.jacobian(region.link, at)
@@ -172,7 +219,23 @@ def reach(sensed: Sensed, finger: str, to_m: Array, facing: Array, speed_m_s: fl
 
 
 def press(sensed: Sensed, region: RegionContact, speed_m_s: float, damping_m: float = _DAMPING_M) -> Array:
-    """Joint speeds that press a touched point on, or let it off below 0 [rad/s]."""
+    """Joint speeds that press a touched point on, or let it off.
+
+    Parameters
+    ----------
+    sensed : Sensed
+    region : RegionContact
+        The contact of which the centre is moved.
+    speed_m_s : float
+        Out of the skin, so towards what it touches; below 0 away from that [m/s].
+    damping_m : float
+        The larger, the slower are joints where a finger is stretched [m].
+
+    Returns
+    -------
+    np.ndarray [shape=(joints,)]
+        [rad/s]
+    """
     pose = sensed.pose
     at = pose.point(region.link, region.centre_m)
     wanted = speed_m_s * pose.direction(region.link, region.normal)
@@ -195,6 +258,6 @@ def _rates(sensed: Sensed, jacobian: Array, wanted: Array, damping_m: float) -> 
 
 
 def unit(vector: Array) -> Array:
-    """A vector's direction."""
+    """A vector's direction, of length 1; that of no length stays nearly 0."""
     result: Array = vector / max(float(np.linalg.norm(vector)), 1e-9)
     return result

@@ -57,7 +57,7 @@ class Pinching:
         self._pinching_s = self._gripped_s = 0.0
 
     def step(self, sensed: Sensed) -> Array:
-        """Joint speeds of both fingers [rad/s]; the others stay where they are."""
+        """Joint speeds of both fingers, shape (joints,) [rad/s]; the others stay where they are."""
         felt = aiming.felt_by_palm(sensed, self._radius_m)
         if felt is not None:
             self._at_m, self._up = felt

@@ -76,6 +76,11 @@ class Rolling:
             What the finger feels of it.
         is_off : bool
             Whether it still has to be moved.
+
+        Returns
+        -------
+        np.ndarray [shape=(joints,)] or None
+            [rad/s]
         """
         at_m = None if touching is None else sensed.pose.point(touching.link, touching.centre_m)
         is_low = at_m is not None and ball.height(at_m) < _LOW
