@@ -233,24 +233,9 @@ class BoardSession:
 
     def _round(self) -> bool:
         """Query the board and send what differs; whether that succeeded, so that a model may be uploaded."""
-        try:
-            state = self._query()
-        except PortError as error:
-            self._set(BoardStatus(problem=str(error)))
-            return False
-        except NotHeardError as error:
-            # What was known of the board still is.
-            if self.status.state is None and not self.status.is_silent:
-                self._set(BoardStatus(problem=str(error)))
-            return False
-        except NoAnswerError as error:
-            self._set(BoardStatus(problem=str(error), is_silent=True))
-            return False
-        except BoardError as error:
-            self._set(BoardStatus(problem=str(error), is_wrong_version=True))
-            return False
+        state = self._query_or_note()
         wanted = (self._parameters, self._own)
-        if self.status.is_wrong_version or wanted == self._refused:
+        if state is None or self.status.is_wrong_version or wanted == self._refused:
             return False
         try:
             self._bring(state)
@@ -265,6 +250,22 @@ class BoardSession:
             self._set(replace(self.status, problem=str(error)))
             return False
         return True
+
+    def _query_or_note(self) -> BoardState | None:
+        """Like `_query`; None where the board does not answer as it should, which the status tells then."""
+        try:
+            return self._query()
+        except PortError as error:
+            self._set(BoardStatus(problem=str(error)))
+        except NotHeardError as error:
+            # What was known of the board still is.
+            if self.status.state is None and not self.status.is_silent:
+                self._set(BoardStatus(problem=str(error)))
+        except NoAnswerError as error:
+            self._set(BoardStatus(problem=str(error), is_silent=True))
+        except BoardError as error:
+            self._set(BoardStatus(problem=str(error), is_wrong_version=True))
+        return None
 
     def _query(self) -> BoardState:
         asked_s = time.monotonic()
