@@ -14,6 +14,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
+from waiting import wait_for
 
 
 class Spinning:
@@ -35,6 +36,12 @@ class Spinning:
             target=self.executor.spin_until_future_complete, args=(self._ended,), daemon=True
         )
         self._thread.start()
+
+    def do(self, work: Callable[[], object]) -> None:
+        """Do something on the thread that spins, where it meets no callback, and wait for its end."""
+        task = self.executor.create_task(work)
+        wait_for(task.done, "the executor")
+        task.result()
 
     def end(self) -> None:
         """Let the thread end first: an executor that is shut down while it spins may fail."""

@@ -56,7 +56,7 @@ class Bench:
         given = {"port": 0, "outlines": True, **parameters}
         options = [Parameter(name, value=value) for name, value in given.items()]
         self.view = ViewNode(context=self._context, parameter_overrides=options)
-        self._spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
+        self.spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
         self.headers: dict[str, dict[str, Any]] = {}
         self.arrays: dict[str, NDArray[Any]] = {}
         self.history: list[NDArray[np.float32]] = []
@@ -85,15 +85,9 @@ class Bench:
         touch = self.headers["frame"]["touch"]
         return touch is not None and bool(touch[2] == force_n)
 
-    def on_executor(self, work: Callable[[], object]) -> None:
-        """Do something on the thread that spins, and wait for its end."""
-        task = self._spinning.executor.create_task(work)
-        wait_for(task.done, "the executor", DEADLINE_S)
-        task.result()
-
     def destroy(self, publishers: list[Publisher]) -> None:
         # The executor may not meet one that is being destroyed.
-        self.on_executor(lambda: [self.skin.destroy_publisher(one) for one in publishers])
+        self.spinning.do(lambda: [self.skin.destroy_publisher(one) for one in publishers])
 
     def until(self, condition: Callable[[], bool], client: ClientConnection, meanwhile: Callable[[], Any]) -> None:
         def turn() -> None:
@@ -117,7 +111,7 @@ class Bench:
                 self.history.append(arrays["history"])
 
     def close(self) -> None:
-        self._spinning.end()
+        self.spinning.end()
         self.view.close()
         for node in (self.view, self._reconstruction, self.skin):
             node.destroy_node()

@@ -77,13 +77,7 @@ class Bench:
             self.view._control._patience_s = PATIENCE_S
         self.url = self.view.address.url
         self._nodes = [*nodes, self.view]
-        self._spinning = Spinning(self._context, *self._nodes)
-
-    def on_executor(self, work: Callable[[], object]) -> None:
-        # It may not meet what is being destroyed.
-        task = self._spinning.executor.create_task(work)
-        wait_for(task.done, "the executor", DEADLINE_S)
-        task.result()
+        self.spinning = Spinning(self._context, *self._nodes)
 
     def connect(self) -> ClientConnection:
         port = self.view.address.port
@@ -91,7 +85,7 @@ class Bench:
         return connect(f"ws://127.0.0.1:{port}/stream", origin=origin, compression=None)
 
     def close(self) -> None:
-        self._spinning.end()
+        self.spinning.end()
         self.view.close()
         for node in (*self._nodes, self.stuck):
             node.destroy_node()
@@ -213,13 +207,14 @@ def test_what_nobody_serves_any_more_is_not_offered(begin: Callable[..., Bench])
         # Once it has been called there is a client, which keeps the name in the graph.
         client.send('{"id":1,"do":"tare","skin":"/plate"}')
         assert header_where(client, lambda header: header.get("id") == 1)["done"]
-        bench.on_executor(lambda: bench.driver.destroy_service(bench.services["/plate/tare"]))
+        # The executor may not meet what is being destroyed.
+        bench.spinning.do(lambda: bench.driver.destroy_service(bench.services["/plate/tare"]))
         status = header_where(
             client, lambda header: ["tare", "/plate"] not in header.get("offers", [["tare", "/plate"]])
         )
         assert ["calibrate", "/plate"] in status["offers"]
         # It may come back.
-        bench.on_executor(lambda: bench.driver.create_service(Trigger, "~/tare", bench.callback("driver", "tare")))
+        bench.spinning.do(lambda: bench.driver.create_service(Trigger, "~/tare", bench.callback("driver", "tare")))
         header_where(client, lambda header: ["tare", "/plate"] in header.get("offers", []))
         client.send('{"id":2,"do":"tare","skin":"/plate"}')
         assert header_where(client, lambda header: header.get("id") == 2)["done"]

@@ -283,7 +283,7 @@ def test_of_long_diagnostics_only_what_can_be_shown_is_kept_and_that_not_for_eve
     tracemalloc.start()
     try:
         # Where messages are heard: elsewhere it could meet the look for what is to be forgotten.
-        bench.on_executor(report)
+        bench.spinning.do(report)
         assert tracemalloc.get_traced_memory()[0] < 5e6
     finally:
         tracemalloc.stop()
