@@ -28,9 +28,10 @@ from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
 
+STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
+"""Exit codes after a request to stop that are no failure; shells report a signal as 128 + its number."""
+
 _STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-# Exit codes after a request to stop that are no failure; shells report a signal as 128 + its number.
-_STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
 # As long after its start a process may not have come to its signal handlers, on a busy machine [s].
 _YOUNG_S = 2.0
 _DRAIN_S = 0.5
@@ -291,7 +292,7 @@ class Launcher:
         if code == 0:
             self._console.say("INFO", child.process.label, f"process has finished cleanly [pid {pid}]")
             return
-        if self._stopping and code in _STOPPED_CODES and not child.killed:
+        if self._stopping and code in STOPPED_CODES and not child.killed:
             self._console.say("INFO", child.process.label, f"process has ended as told [pid {pid}, exit code {code}]")
             return
         self._console.say(

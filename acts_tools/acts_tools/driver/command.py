@@ -14,10 +14,9 @@ from acts_core.files import path_of
 from acts_core.names import full_name
 from acts_core.settings import from_text, is_given
 from acts_core.skin import LAYOUTS, layout_path
+from acts_tools.running.calls import ANSWER_S, FOUND_S
 from acts_tools.running.near_names import did_you_mean
 
-_FOUND_S = 10.0
-_ANSWER_S = 30.0
 _SERVICES = {"query": "query_board", "calibrate": "calibrate", "tare": "tare"}
 # As lifecycle_msgs/msg/Transition numbers them.
 _TRANSITIONS = {"configure": 1, "cleanup": 2, "activate": 3, "deactivate": 4}
@@ -154,5 +153,5 @@ def _call(kind: Any, name: str, request: Any) -> Any:
     from acts_tools.running.node import command_node
 
     with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
-        limits = {"found_s": _FOUND_S, "answer_s": _ANSWER_S}
+        limits = {"found_s": FOUND_S, "answer_s": ANSWER_S}
         return call(node, executor, kind, name, request, who="driver", error=BoardError, **limits)

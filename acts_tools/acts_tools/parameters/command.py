@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
+from acts_tools.running.calls import FOUND_S
 from acts_tools.running.near_names import did_you_mean
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
-
-FOUND_S = 10.0
-"""How long the node may take to be found [s]."""
 
 _EPILOG = """\
 examples:

@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING
 
 from acts_core.errors import ActsError, SettingsError
 from acts_core.names import full_name
+from acts_tools.running.calls import FOUND_S
 
 if TYPE_CHECKING:
     from rclpy.executors import Executor
     from rclpy.node import Node
-
-FOUND_S = 10.0
-"""How long a service may take to be found [s]."""
 
 _LIST_S, _LOOK_S = 2.0, 0.1
 _TRIGGER = "std_srvs/srv/Trigger"

@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 import functools
 import os
-import signal
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -28,9 +27,8 @@ from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
 from acts_ros.processes import packages
+from acts_ros.processes.launcher import STOPPED_CODES
 from acts_tools.testing.launched import Launched, LaunchFile
-
-_STOPPED_CODES = (0, -signal.SIGINT, -signal.SIGTERM, 128 + signal.SIGINT, 128 + signal.SIGTERM)
 
 
 class ServiceLaunch(Launched):
@@ -117,7 +115,7 @@ class ServiceLaunch(Launched):
                 rest = self._parts.pop((event.pid, from_stdout), "")
                 self._text += [f"[{event.process_name}] {rest}\n"] if rest else []
             self._text.append(f"[{event.process_name}]: process ended with exit code {event.returncode}\n")
-            if event.returncode not in (_STOPPED_CODES if self._stopping else (0,)):
+            if event.returncode not in (STOPPED_CODES if self._stopping else (0,)):
                 self._failed.add(id(event.action))
 
 

@@ -140,7 +140,7 @@ def test_a_driver_that_is_not_there_is_named(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "119")
-    monkeypatch.setattr("acts_tools.driver.command._FOUND_S", 0.1)
+    monkeypatch.setattr("acts_tools.driver.command.FOUND_S", 0.1)
     assert main(["driver", "calibrate"]) == 1
     assert "no driver offers /plate/driver/calibrate" in capsys.readouterr().err
     assert main(["driver", "tare", "m=5"]) == 1
@@ -175,6 +175,6 @@ def test_a_driver_that_ends_before_it_answers_is_told_from_one_that_is_slow(
         assert f"{name} is gone and has not answered" in capsys.readouterr().err
         ending.join()
         service = probe.node.create_service(Trigger, name, lambda _request, response: response)
-        monkeypatch.setattr("acts_tools.driver.command._ANSWER_S", 0.0)
+        monkeypatch.setattr("acts_tools.driver.command.ANSWER_S", 0.0)
         assert main(["driver", "query"]) == 1
         assert f"{name} has not answered within 0 s" in capsys.readouterr().err

@@ -46,7 +46,7 @@ def test_what_may_have_been_meant(name: str, words: str) -> None:
 def plate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
     """A node `gains` in namespace /plate, with a topic, a service and a parameter."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "152")
-    for module in ("driver.command._FOUND_S", "parameters.command.FOUND_S", "services.command.FOUND_S"):
+    for module in ("driver.command.FOUND_S", "parameters.command.FOUND_S", "services.command.FOUND_S"):
         monkeypatch.setattr(f"acts_tools.{module}", 0.5)
 
     def furnish(node: Node) -> None:
