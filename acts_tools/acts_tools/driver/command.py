@@ -122,8 +122,8 @@ def parameters_of(words: list[str]) -> dict[str, Any]:
 
     values: dict[str, Any] = {}
     for word in words:
-        name, is_given, text = word.partition("=")
-        if not is_given or name not in BOARD_PARAMETERS:
+        name, equals, text = word.partition("=")
+        if not equals or name not in BOARD_PARAMETERS:
             hint = did_you_mean(name, BOARD_PARAMETERS)
             raise SettingsError(f"{word}: needed is NAME=VALUE with one of {', '.join(BOARD_PARAMETERS)}{hint}")
         if name in values:

@@ -262,7 +262,7 @@ class _FoundContacts:
     note: str
 
 
-def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout: str, refused: Refused) -> _FoundContacts:
+def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout_name: str, refused: Refused) -> _FoundContacts:
     """The recorded contacts; beside recorded images, those that lack are found in the samples."""
     contact = contact_track(bag, path, topics.contact)
     contacts = contacts_track(bag, path, topics.contacts)
@@ -271,17 +271,17 @@ def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout: str, refuse
     uses_layout = not topics.images or bool(topics.samples and not are_recorded)
     other_taxels = ""
     if uses_layout and not contacts.stamps_ns:
-        other_taxels = _other_taxels(contact, topics.contact, layout)
+        other_taxels = _other_taxels(contact, topics.contact, layout_name)
     if not (topics.images and uses_layout):
         return _FoundContacts(contact, contacts, left_out, uses_layout, other_taxels)
     found = contacts_in(
-        recovered_frames(bag, path, topics.samples, topics.baseline, layout, refused),
+        recovered_frames(bag, path, topics.samples, topics.baseline, layout_name, refused),
         recorded_frames(bag, path, topics.images),
     )
     if found is None:
         note = (
-            f"contacts were not recorded, and are left out: with the layout {layout} {topics.samples} does not give "
-            f"the images of {topics.images}; export it with --layout NAME, as the driver had it"
+            f"contacts were not recorded, and are left out: with the layout {layout_name} {topics.samples} does not "
+            f"give the images of {topics.images}; export it with --layout NAME, as the driver had it"
         )
         return _FoundContacts(contact, contacts, left_out, uses_layout, note)
     return _FoundContacts(
@@ -311,10 +311,10 @@ def _other_taxels(contact: Track[Values], topic: str, name: str) -> str:
     )
 
 
-def _layout_hint(bag: Any, path: Path, skin: str, layout: str) -> str:
+def _layout_hint(bag: Any, path: Path, skin: str, layout_name: str) -> str:
     """That the skin has several patches, where its layout was not given."""
     topic = f"{skin}/regions"
-    if layout != "square" or bag.topics().get(topic) != _REGIONS:
+    if layout_name != "square" or bag.topics().get(topic) != _REGIONS:
         return ""
     bag.check_definition(topic)
     first = next(messages(bag, path, topic, RegionContacts), None)

@@ -146,11 +146,11 @@ def _live(scenario: str, one: Run) -> tuple[Outcome, dict[str, Any]]:
         log = Path(folder) / "launch.log"
         try:
             with LiveRigs(log, stop) as rigs:
-                outcome, counted = _counted(scenario, replace(one, rig=rigs))
+                outcome, events = _counted(scenario, replace(one, rig=rigs))
         except LaunchError as error:
             said = "\n".join(log.read_text(errors="replace").splitlines()[-30:])
             raise LaunchError(f"{error}; the launch said:\n{said}") from error
-    return outcome, {**counted, **rigs.recording.timing_ms()}
+    return outcome, {**events, **rigs.recording.timing_ms()}
 
 
 def _summary(outcomes: Sequence[Any]) -> dict[str, object]:

@@ -74,15 +74,15 @@ def shown(motor: Motor, m: int, rng: np.random.Generator) -> Vibration:
     return vibration(skin_of(rng), motor, WINDOW_S + 2 / frame_rate_hz(m), rng)
 
 
-def our_spectra(shown: Vibration, scheme: str, m: int, noise_counts: float, seed: int) -> tuple[Spectrum, ...]:
+def our_spectra(seen: Vibration, scheme: str, m: int, noise_counts: float, seed: int) -> tuple[Spectrum, ...]:
     """What `SpectrumAnalyser` tells of the samples of a second."""
     analyser = SpectrumAnalyser(ArrayGeometry(), touch_counts=DETECTOR_TOUCH_COUNTS, noise_counts=noise_counts)
-    for frame in frames_of(shown.frames, VIBRATION_RATE_HZ, scheme, m, FOLLOW_COUNTS, noise_counts, seed):
+    for frame in frames_of(seen.frames, VIBRATION_RATE_HZ, scheme, m, FOLLOW_COUNTS, noise_counts, seed):
         analyser.add(frame.indices, frame.counts, frame.end_s, frame.duration_s)
     return analyser.spectra()
 
 
-def paper_spectrum(shown: Vibration, m: int, noise_counts: float, seed: int) -> tuple[Array, Array]:
+def paper_spectrum(seen: Vibration, m: int, noise_counts: float, seed: int) -> tuple[Array, Array]:
     """The Fourier transform of the force in the recovered image of each frame: frequencies [Hz] and amplitudes [N].
 
     Adaptive sampling, and recovery of each frame by itself, as in the paper. A frame is taken for one moment.
@@ -90,7 +90,7 @@ def paper_spectrum(shown: Vibration, m: int, noise_counts: float, seed: int) -> 
     recovery = paper_method()
     response = ForceResponse()
     forces = []
-    for frame in frames_of(shown.frames, VIBRATION_RATE_HZ, "adaptive", m, PAPER_TOUCH_COUNTS, noise_counts, seed):
+    for frame in frames_of(seen.frames, VIBRATION_RATE_HZ, "adaptive", m, PAPER_TOUCH_COUNTS, noise_counts, seed):
         image = recovery.step(frame.indices, frame.counts, frame.end_s, frame.duration_s)
         forces.append(float(response.force_n(np.where(image > PAPER_TOUCH_COUNTS, image, 0.0)).sum()))
     force_n = np.array(forces) - np.mean(forces)
@@ -98,10 +98,10 @@ def paper_spectrum(shown: Vibration, m: int, noise_counts: float, seed: int) -> 
     return frequency_hz, 2 * np.abs(np.fft.rfft(force_n)) / force_n.size
 
 
-def one_taxel_spectra(shown: Vibration, noise_counts: float, seed: int) -> tuple[Spectrum, ...]:
+def one_taxel_spectra(seen: Vibration, noise_counts: float, seed: int) -> tuple[Spectrum, ...]:
     """What `SpectrumAnalyser` tells where only the taxel is measured that the motor presses most."""
-    row, col = divmod(int(shown.frames[0].argmax()), shown.frames.shape[2])
-    return _of_one_taxel(shown.frames, VIBRATION_RATE_HZ, row, col, noise_counts, seed)
+    row, col = divmod(int(seen.frames[0].argmax()), seen.frames.shape[2])
+    return _of_one_taxel(seen.frames, VIBRATION_RATE_HZ, row, col, noise_counts, seed)
 
 
 def tone_on_a_taxel(tone: Tone, noise_counts: float, rng: np.random.Generator) -> tuple[Spectrum, ...]:
