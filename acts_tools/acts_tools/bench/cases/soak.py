@@ -65,18 +65,9 @@ def measure(workbench: Workbench) -> Result:
         graph.spin_until(lambda: counter.received, START_TIMEOUT_S, "the first message", check)
         graph.spin_for(_SETTLE_S)
         before = _next_status(graph, statuses, check)
-        watched = psutil.Process(process.pid)
         cpu_before_s, received_before, lost_before = cpu_s(process.pid), counter.received, counter.lost
         counter.take_latencies()
-        begin_s = time.monotonic()
-        while (passed_s := time.monotonic() - begin_s) < workbench.seconds:
-            memory.time_s.append(passed_s)
-            memory.mb.append(watched.memory_info().rss / _MB)
-            graph.spin_for(min(1.0, max(workbench.seconds - passed_s, 0.0)))
-            check()
-        passed_s = time.monotonic() - begin_s
-        memory.time_s.append(passed_s)
-        memory.mb.append(watched.memory_info().rss / _MB)
+        passed_s = _watch(memory, process.pid, graph, workbench.seconds, check)
         cpu_percent = (cpu_s(process.pid) - cpu_before_s) / passed_s * 100
         received, missed = counter.received - received_before, counter.lost - lost_before
         latencies_ms = np.asarray(counter.take_latencies(), dtype=np.float64) * 1e3
@@ -97,6 +88,24 @@ def measure(workbench: Workbench) -> Result:
         *(Figure(f"latency_ms.{name}", _NAMES[name], value, "ms") for name, value in percentiles(latencies_ms).items()),
     ]
     return Result(figures, problems(added, memory, workbench.seconds))
+
+
+def _watch(memory: Memory, pid: int, graph: Graph, seconds: float, check: Callable[[], None]) -> float:
+    """Receive messages, and read a process's memory each second and at the end; how long that took [s]."""
+    watched = psutil.Process(pid)
+    begin_s = time.monotonic()
+
+    def read() -> float:
+        passed_s = time.monotonic() - begin_s
+        memory.time_s.append(passed_s)
+        memory.mb.append(watched.memory_info().rss / _MB)
+        return passed_s
+
+    while time.monotonic() - begin_s < seconds:
+        passed_s = read()
+        graph.spin_for(min(1.0, max(seconds - passed_s, 0.0)))
+        check()
+    return read()
 
 
 def problems(added: dict[str, int], memory: Memory, seconds: float) -> list[str]:
