@@ -3,22 +3,15 @@
 
 """Headers and contacts as bytes, compared with what rclpy itself makes of them."""
 
-import math
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from message_values import DOUBLES, NAMES, NUMBERS, SINGLES, STAMPS_NS
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
 from acts_msgs.msg import Contact, Contacts, TactileSamples
 from acts_ros.messages import ContactFields, header_of, read_contact, sequence_of, write_contact
-
-STAMPS_NS = st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1)
-NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=20)
-DOUBLES = st.floats()
-# Of the largest ones rclpy says that they do not fit.
-SINGLES = st.floats(width=32).filter(lambda value: not 3.4e38 < abs(value) < math.inf)
 
 
 @st.composite
@@ -26,7 +19,7 @@ def contacts(draw: st.DrawFn) -> ContactFields:
     return ContactFields(
         stamp_ns=draw(STAMPS_NS),
         frame_id=draw(NAMES),
-        sequence=draw(st.integers(0, 2**32 - 1)),
+        sequence=draw(NUMBERS),
         in_contact=draw(st.booleans()),
         x_m=draw(DOUBLES),
         y_m=draw(DOUBLES),
@@ -69,7 +62,7 @@ def test_a_contact_of_rclpy_is_read(contact: ContactFields) -> None:
     assert repr(read_contact(serialize_message(message_of(contact)))) == repr(contact)
 
 
-@given(st.sampled_from([Contact, TactileSamples]), st.integers(0, 2**32 - 1), NAMES)
+@given(st.sampled_from([Contact, TactileSamples]), NUMBERS, NAMES)
 def test_the_number_of_a_frame_is_read(kind: type, sequence: int, frame_id: str) -> None:
     message = kind(sequence=sequence)
     message.header.frame_id = frame_id

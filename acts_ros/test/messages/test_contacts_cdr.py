@@ -3,7 +3,6 @@
 
 """Contacts of a frame and series of contacts as bytes, compared with what rclpy itself makes of them."""
 
-import math
 import struct
 from array import array
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from message_values import DOUBLES, NAMES, NUMBERS, SINGLES, STAMPS_NS
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
@@ -31,12 +31,6 @@ from acts_ros.messages import (
 
 pytestmark = pytest.mark.slow
 
-STAMPS_NS = st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1)
-NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=12)
-NUMBERS = st.integers(0, 2**32 - 1)
-DOUBLES = st.floats()
-# Of the largest ones rclpy says that they do not fit.
-SINGLES = st.floats(width=32).filter(lambda value: not 3.4e38 < abs(value) < math.inf)
 TRACKED = st.builds(
     TrackedBlob,
     NUMBERS,

@@ -9,22 +9,22 @@ from array import array
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from message_values import NAMES, NUMBERS, STAMPS_NS
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Image
 
 from acts_core.errors import PacketError
 from acts_ros.messages import ImageFields, read_image, write_image
 
-NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=12)
 IMAGES = st.builds(
     ImageFields,
-    stamp_ns=st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1),
+    stamp_ns=STAMPS_NS,
     frame_id=NAMES,
-    height=st.integers(0, 2**32 - 1),
-    width=st.integers(0, 2**32 - 1),
+    height=NUMBERS,
+    width=NUMBERS,
     encoding=st.sampled_from(["mono8", "mono16", "rgb8", "32FC1"]) | NAMES,
     is_bigendian=st.booleans(),
-    step=st.integers(0, 2**32 - 1),
+    step=NUMBERS,
     data=st.binary(max_size=40),
 )
 

@@ -3,11 +3,10 @@
 
 """Regions as bytes, compared with what rclpy itself makes of them."""
 
-import math
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from message_values import DOUBLES, NAMES, NUMBERS, SINGLES, STAMPS_NS
 from rclpy.serialization import deserialize_message, serialize_message
 
 from acts_core.errors import PacketError
@@ -18,10 +17,6 @@ from acts_ros.messages import RegionsFields, read_regions, write_regions
 
 pytestmark = pytest.mark.slow
 
-NAMES = st.text(st.characters(exclude_characters="\0", codec="utf-8"), max_size=12)
-DOUBLES = st.floats()
-# Of the largest ones rclpy says that they do not fit.
-SINGLES = st.floats(width=32).filter(lambda value: not 3.4e38 < abs(value) < math.inf)
 VECTORS = st.tuples(DOUBLES, DOUBLES, DOUBLES)
 REGIONS = st.builds(
     RegionContact,
@@ -42,9 +37,9 @@ REGIONS = st.builds(
 )
 SKINS = st.builds(
     RegionsFields,
-    stamp_ns=st.integers(-(2**31) * 10**9, 2**31 * 10**9 - 1),
+    stamp_ns=STAMPS_NS,
     frame_id=NAMES,
-    sequence=st.integers(0, 2**32 - 1),
+    sequence=NUMBERS,
     regions=st.lists(REGIONS, max_size=4),
 )
 
