@@ -115,27 +115,29 @@ class LeRobotWriter:
             "data/" + _FILE.format(**place),
             {name: self._arrow_column(columns[name], features[name]) for name in features},
         )
-        self._episodes.append(
-            {
-                "episode_index": number,
-                "tasks": [self._task],
-                "length": n_rows,
-                **{f"data/{name}": value for name, value in place.items()},
-                "dataset_from_index": self._n_rows,
-                "dataset_to_index": self._n_rows + n_rows,
-                **{
-                    f"stats/{name}/{kind}": value.tolist()
-                    for name, kinds in statistics.items()
-                    for kind, value in kinds.items()
-                },
-                "meta/episodes/chunk_index": 0,
-                "meta/episodes/file_index": 0,
-            }
-        )
+        self._episodes.append(self._episode(n_rows, place, statistics))
         self._statistics.append(statistics)
         self._n_rows += n_rows
         self._file += 1
         return n_rows
+
+    def _episode(self, n_rows: int, place: dict[str, int], statistics: Statistics) -> dict[str, Any]:
+        """What the metadata say of the next episode, of which the data are in the file at `place`."""
+        return {
+            "episode_index": len(self._episodes),
+            "tasks": [self._task],
+            "length": n_rows,
+            **{f"data/{name}": value for name, value in place.items()},
+            "dataset_from_index": self._n_rows,
+            "dataset_to_index": self._n_rows + n_rows,
+            **{
+                f"stats/{name}/{kind}": value.tolist()
+                for name, kinds in statistics.items()
+                for kind, value in kinds.items()
+            },
+            "meta/episodes/chunk_index": 0,
+            "meta/episodes/file_index": 0,
+        }
 
     def close(self) -> None:
         """Write the metadata of all episodes, without which the dataset is invalid."""
