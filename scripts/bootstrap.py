@@ -389,6 +389,9 @@ def main() -> int:
         return 130
     if not arguments.quiet:
         say("ready: ./acts --help")
+    # Ctrl-C while Python ends would be an exception that nobody catches, exit code 0, and the shell would go on.
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     return 0
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Ctrl-C while Python itself still starts: no traceback. No node is made, so no ROS_DOMAIN_ID is used."""
+"""Ctrl-C while Python itself still starts, or ends: no traceback, and it is not lost. No node is made, so no ROS_DOMAIN_ID is used."""
 
 import os
 import shutil
@@ -46,26 +46,35 @@ def test_a_signal_before_any_module_of_ours_is_an_orderly_end(package: str, name
 
 
 # Python imports it while it starts, before anything of ours.
-INTERRUPTING = "import os, signal, sys\nif {word!r} in ' '.join(sys.orig_argv): os.kill(os.getpid(), signal.SIGINT)\n"
+INTERRUPTING = """
+import atexit, os, signal, sys
+if {word!r} in ' '.join(sys.orig_argv):
+    {when}(os.kill, os.getpid(), signal.SIGINT)
+"""
+AT_START, AT_END = "(lambda call, *arguments: call(*arguments))", "atexit.register"
 
 
 @pytest.mark.parametrize(
-    ("command", "word", "said"),
+    ("command", "word", "when", "said"),
     [
-        ("acts", "-m acts_tools", ""),
+        ("acts", "-m acts_tools", AT_START, ""),
         (
             str(CHECKOUT / "acts"),
             "bootstrap.py",
+            AT_START,
             "[setup] interrupted; the same command does again what is not finished",
         ),
+        (str(CHECKOUT / "acts"), "bootstrap.py", AT_END, ""),
     ],
 )
-def test_the_command_says_nothing_of_python_either(tmp_path: Path, command: str, word: str, said: str) -> None:
+def test_the_command_says_nothing_of_python_either(
+    tmp_path: Path, command: str, word: str, when: str, said: str
+) -> None:
     if subprocess.run(["env", "--block-signal=INT", "true"], capture_output=True, check=False).returncode:
         pytest.skip("`env` knows no --block-signal")
     if word == "bootstrap.py" and shutil.which("ros2"):
         pytest.skip("where ROS is installed, nothing is set up")
-    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(word=word))
+    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(word=word, when=when))
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
     done = subprocess.run([command, "--version"], env=environment, capture_output=True, text=True, timeout=DEADLINE_S)
     assert (done.returncode, done.stdout, done.stderr.strip()) == (130, "", said)
