@@ -1,7 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Ctrl-C while Python itself still starts, or ends: no traceback, and it is not lost. No node is made, so no ROS_DOMAIN_ID is used."""
+"""Ctrl-C while Python itself still starts, or ends: no traceback, and it is not lost.
+
+No node is made, so no ROS_DOMAIN_ID is used.
+"""
 
 import os
 import shutil
@@ -49,13 +52,15 @@ def test_a_signal_before_any_module_of_ours_is_an_orderly_end(package: str, name
 INTERRUPTING = """
 import atexit, os, signal, sys
 if {word!r} in ' '.join(sys.orig_argv):
-    {when}(os.kill, os.getpid(), signal.SIGINT)
+    {interrupt}
 """
-AT_START, AT_END = "(lambda call, *arguments: call(*arguments))", "atexit.register"
+AT_START = "os.kill(os.getpid(), signal.SIGINT)"
+AT_END = "atexit.register(os.kill, os.getpid(), signal.SIGINT)"
+AFTER_IT = "os.kill(os.getppid(), signal.SIGINT)"  # only the shell gets it
 
 
 @pytest.mark.parametrize(
-    ("command", "word", "when", "said"),
+    ("command", "word", "interrupt", "said"),
     [
         ("acts", "-m acts_tools", AT_START, ""),
         (
@@ -65,16 +70,17 @@ AT_START, AT_END = "(lambda call, *arguments: call(*arguments))", "atexit.regist
             "[setup] interrupted; the same command does again what is not finished",
         ),
         (str(CHECKOUT / "acts"), "bootstrap.py", AT_END, ""),
+        (str(CHECKOUT / "acts"), "bootstrap.py", AFTER_IT, ""),
     ],
 )
 def test_the_command_says_nothing_of_python_either(
-    tmp_path: Path, command: str, word: str, when: str, said: str
+    tmp_path: Path, command: str, word: str, interrupt: str, said: str
 ) -> None:
     if subprocess.run(["env", "--block-signal=INT", "true"], capture_output=True, check=False).returncode:
         pytest.skip("`env` knows no --block-signal")
     if word == "bootstrap.py" and shutil.which("ros2"):
         pytest.skip("where ROS is installed, nothing is set up")
-    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(word=word, when=when))
+    (tmp_path / "sitecustomize.py").write_text(INTERRUPTING.format(word=word, interrupt=interrupt))
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
     done = subprocess.run([command, "--version"], env=environment, capture_output=True, text=True, timeout=DEADLINE_S)
     assert (done.returncode, done.stdout, done.stderr.strip()) == (130, "", said)
