@@ -50,7 +50,8 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
             environment=os.environ,
         ).plan()
         launcher = Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins", ends_on_refusal=False)
-        with _claim(options.run_dir.absolute()) if _TRUTHS[options.sim] else contextlib.nullcontext():
+        # As it was given: one that begins with ~ is refused.
+        with _claim(options.run_dir) if _TRUTHS[options.sim] else contextlib.nullcontext():
             return launcher.run(plan)
 
 

@@ -187,6 +187,22 @@ def test_a_folder_in_which_other_skins_are_simulated_is_refused_with_who_has_it(
     assert not (tmp_path / "run" / "skins.lock").exists()
 
 
+def test_no_folder_is_made_that_is_named_as_the_home_is_by_a_shell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As of `run_dir:=~/run`; `rm -r ~` would remove more than that."""
+    path = skins_yaml(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    with running(tmp_path, path, 162, "--run-dir", "~/run") as skins:
+        skins.until(lambda: skins.process.poll() is not None or Path("~").exists())
+        assert not Path("~").exists()
+        assert skins.process.wait(DEADLINE_S) == REFUSED_EXIT_CODE
+        assert skins.output.startswith(
+            "error: the folder ~/run begins with ~, which no shell replaces there; write $HOME"
+        )
+        assert skins.output.count("\n") == 1
+
+
 def plan(path: Path, *, simulated: bool) -> dict[str, str]:
     processes = SkinProcesses(
         read_skins(path), simulated=simulated, run_dir=Path("/run"), namespace="", environment=os.environ
