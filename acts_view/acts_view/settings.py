@@ -18,7 +18,11 @@ from acts_core.settings import setting, validate
 class ViewSettings:
     """Parameters of the node ``view``; see `acts_core.settings`."""
 
-    skins: str = setting("", "namespaces of the skins to show, with commas between; empty: all that are found")
+    skins: str = setting(
+        "",
+        "namespaces of the skins to show, with commas between, within the node's own unless / is before them; empty: "
+        "all that are found",
+    )
     host: str = setting("127.0.0.1", "address to listen on; another than this machine's own gets a token, see the log")
     port: int = setting(8080, "port to listen on; 0: any that is free, see the log", minimum=0, maximum=65535)
     control: bool = setting(
@@ -46,7 +50,7 @@ class ViewSettings:
         if not self.record_dir:
             raise SettingsError("record_dir is empty: needed is a folder, such as recordings")
         path_of(self.record_dir, error=SettingsError)
-        for name in self.namespaces:
+        for name in self.namespaces("/"):
             if not is_full_name(name):
                 raise SettingsError(
                     f"skins: {name[1:]!r} is no namespace: allowed are {ALLOWED}, parts with / between, and a comma "
@@ -58,8 +62,14 @@ class ViewSettings:
         """What `record_dir` names."""
         return path_of(self.record_dir, error=SettingsError)
 
-    @property
-    def namespaces(self) -> tuple[str, ...]:
-        """The skins that are given, each with a slash before; empty: all that are found."""
-        names = (name.strip().strip("/") for name in self.skins.split(","))
-        return tuple(dict.fromkeys(f"/{name}" for name in names if name))
+    def namespaces(self, own: str) -> tuple[str, ...]:
+        """The skins that are given, each with a slash before; empty: all that are found.
+
+        Parameters
+        ----------
+        own : str
+            Namespace of the node, in which those are that are given without a slash before.
+        """
+        given = (name.strip() for name in self.skins.split(","))
+        whole = (name if name.startswith("/") else f"{own}/{name}" for name in given if name.strip("/"))
+        return tuple(dict.fromkeys(f"/{name.strip('/')}" for name in whole))

@@ -42,20 +42,20 @@ def header_where(client: ClientConnection, condition: Callable[[dict[str, Any]],
 
 
 class Bench:
-    """The node, a skin that a test plays, and what pages were sent."""
+    """The node, a skin that a test plays, and what pages were sent; all within `namespace`, as of a launch file."""
 
-    def __init__(self, domain_id: int, **parameters: str) -> None:
+    def __init__(self, domain_id: int, namespace: str = "", **parameters: str) -> None:
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain_id)
-        self.skin = Node("skin", namespace="hand", context=self._context)
+        self.skin = Node("skin", namespace=f"{namespace}/hand", context=self._context)
         # The node asks this one what the skin is like.
-        self._reconstruction = Node("reconstruction", namespace="hand", context=self._context)
+        self._reconstruction = Node("reconstruction", namespace=f"{namespace}/hand", context=self._context)
         for name, value in SHAPE.items():
             self._reconstruction.declare_parameter(name, value)
         self.contact = self.skin.create_publisher(Contact, "contact", qos.STREAM)
         given = {"port": 0, "outlines": True, **parameters}
         options = [Parameter(name, value=value) for name, value in given.items()]
-        self.view = ViewNode(context=self._context, parameter_overrides=options)
+        self.view = ViewNode(context=self._context, namespace=namespace, parameter_overrides=options)
         self.spinning = Spinning(self._context, self.skin, self._reconstruction, self.view)
         self.headers: dict[str, dict[str, Any]] = {}
         self.arrays: dict[str, NDArray[Any]] = {}

@@ -78,7 +78,9 @@ class ViewNode(PollingNode):
         # The executor's thread changes what is subscribed to, the server's takes what has come.
         self._lock = threading.Lock()
         self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
-        self._names = list(settings.namespaces)
+        # As other names of a node: a launch file may have pushed a namespace around the skins and around this one.
+        self._wanted = settings.namespaces(self.get_namespace())
+        self._names = list(self._wanted)
         self._heard: dict[str, tuple[float, dict[str, Any]]] = {}
         self._only: dict[str, OnlyPublishers] = {}
         self._pages = 0
@@ -123,7 +125,7 @@ class ViewNode(PollingNode):
 
     def _recorded(self) -> Sequence[str]:
         """The skins that there are, also those that appeared while no page is open."""
-        if not self._settings.namespaces:
+        if not self._wanted:
             self._find()
         return self._names
 
@@ -159,7 +161,7 @@ class ViewNode(PollingNode):
         self._forget()
         if not self._pages:
             return
-        if not self._settings.namespaces:
+        if not self._wanted:
             self._find()
         for name in self._names:
             if name in self._skins:
@@ -247,7 +249,7 @@ class ViewNode(PollingNode):
         """Of skins that were asked for and that nobody publishes, that it is so."""
         return [
             {"name": name or "/", "level": WARN, "message": _MISSING, "age_s": 0.0, "values": []}
-            for name in self._settings.namespaces
+            for name in self._wanted
             if not any(self.count_publishers(f"{name}/{topic}") for topic in _TOUCH_TOPICS)
         ]
 
