@@ -8,7 +8,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardMessage, BoardSettings, Reply, StreamDecoder
+from acts_core.wire import BoardMessage, BoardSettings, BoardState, Reply, ReplyStatus, StreamDecoder, cobs
+from acts_core.wire.board_messages import decode_message
+from acts_core.wire.board_settings import SETTINGS_SIZE
+from acts_core.wire.commands import NO_MODEL, encode_reply
+from acts_core.wire.packets import PacketType, seal, unseal
 from acts_driver.board import BoardLink, BoardParameters, BoardSession
 from acts_driver.port import Reader, SerialSource
 
@@ -93,11 +97,6 @@ class SimpleBoard:
         self.begun = 0
 
     def receive(self, data: bytes) -> list[BoardMessage]:
-        from acts_core.wire import BoardState, ReplyStatus, cobs
-        from acts_core.wire.board_messages import decode_message
-        from acts_core.wire.commands import NO_MODEL, encode_reply
-        from acts_core.wire.packets import PacketType, unseal
-
         kind, content = unseal(cobs.decode(data[:-1]))
         request = int.from_bytes(content[:4], "little")
         status, detail = ReplyStatus.OK, 0
@@ -115,3 +114,20 @@ class SimpleBoard:
         state = BoardState((0, 1, 0), 1, 0, BoardSettings(), False, True, NO_MODEL, 262_144, 0, 0)
         packet = encode_reply(Reply(request, kind, status, detail, state))
         return [decode_message(cobs.decode(packet[:-1]))]
+
+
+class OtherBoard:
+    """An imagined board with firmware of another release: its replies hold a setting that this one does not know."""
+
+    def __init__(self, version: tuple[int, int, int]) -> None:
+        self.link = BoardLink(self._write, reply_timeout_s=0.001)
+        self._version = version
+        self._decoder = StreamDecoder(self.link.receive)
+
+    def _write(self, data: bytes, timeout_s: float) -> None:
+        kind, content = unseal(cobs.decode(data[:-1]))
+        request = int.from_bytes(content[:4], "little")
+        state = BoardState(self._version, 1, 0, BoardSettings(), False, False, NO_MODEL, 262_144, 0, 0, 0)
+        _, known = unseal(cobs.decode(encode_reply(Reply(request, kind, ReplyStatus.OK, 0, state))[:-1]))
+        before_model = 32 + SETTINGS_SIZE
+        self._decoder.feed(seal(PacketType.REPLY, known[:before_model] + bytes(2) + known[before_model:]))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import PacketError
 from acts_core.wire.board_models import OBJECTS_MAX
-from acts_core.wire.commands import Reply, decode_reply
+from acts_core.wire.commands import Reply, UnknownReply, decode_reply
 from acts_core.wire.packets import PacketType, unseal, version_mismatch
 
 # sequence, board_us, duration_us, rows, cols, reserved
@@ -70,7 +70,7 @@ class BoardObject:
     residuals: NDArray[np.float32]
 
 
-BoardMessage: TypeAlias = Reply | BoardImage | BoardObject
+BoardMessage: TypeAlias = Reply | UnknownReply | BoardImage | BoardObject
 
 
 def decode_message(packet: bytes) -> BoardMessage:
@@ -80,7 +80,7 @@ def decode_message(packet: bytes) -> BoardMessage:
     ------
     ChecksumError
         When the packet was damaged on its way.
-    PacketError
+    UnknownReplyError, PacketError
         When it is none that this release knows.
     """
     kind, content = unseal(packet)

@@ -31,6 +31,8 @@ __all__ = [
     "Reply",
     "ReplyStatus",
     "SettingField",
+    "UnknownReply",
+    "UnknownReplyError",
     "decode_reply",
     "encode_configure",
     "encode_map_data",
@@ -196,6 +198,33 @@ class Reply:
         return _PROBLEMS[self.status].format(command=self.command, capacity=self.state.model_capacity_bytes)
 
 
+@dataclass(frozen=True)
+class UnknownReply:
+    """A whole reply of which this release knows no more than its head, as of firmware of another release.
+
+    Attributes
+    ----------
+    request : int
+        Number of the command that is answered.
+    firmware_version : tuple of int
+        Major, minor, patch.
+    problem : str
+        Why it is not known.
+    """
+
+    request: int
+    firmware_version: tuple[int, int, int]
+    problem: str
+
+
+class UnknownReplyError(PacketError):
+    """A reply that is not known as a whole; `reply` is what is known of it."""
+
+    def __init__(self, reply: UnknownReply) -> None:
+        super().__init__(reply.problem)
+        self.reply = reply
+
+
 _PROBLEMS = {
     ReplyStatus.OK: "",
     ReplyStatus.UNKNOWN_COMMAND: "the board's firmware does not know command {command}: install a newer one",
@@ -307,9 +336,21 @@ def decode_reply(content: bytes) -> Reply:
 
     Raises
     ------
+    UnknownReplyError
+        When it is not a reply that this release knows, but has the head of one, which no release moves.
     PacketError
-        When it is not a reply that this release knows.
+        When it is too short even for that.
     """
+    try:
+        return _decode_known_reply(content)
+    except PacketError as error:
+        if len(content) < _REPLY_HEAD.size:
+            raise
+        request, _, _, _, _, major, minor, patch, *_ = _REPLY_HEAD.unpack_from(content)
+        raise UnknownReplyError(UnknownReply(request, (major, minor, patch), str(error))) from error
+
+
+def _decode_known_reply(content: bytes) -> Reply:
     if len(content) not in (_REPLY_SIZE, _REPLY_SIZE + _REPLY_MAP.size):
         raise version_mismatch(
             f"reply of {len(content)} bytes; this release knows {_REPLY_SIZE} and {_REPLY_SIZE + _REPLY_MAP.size}"

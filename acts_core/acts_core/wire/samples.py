@@ -27,6 +27,7 @@ from acts_core.sampling import REPEATING
 from acts_core.wire.board_messages import BoardMessage, decode_message
 from acts_core.wire.cobs import DELIMITER, encoded_size_max
 from acts_core.wire.cobs_kernels import decode_into
+from acts_core.wire.commands import UnknownReplyError
 from acts_core.wire.delimited import DelimitedDecoder
 from acts_core.wire.packets import CRC, VERSION, ChecksumError, PacketType, stuffed, version_mismatch
 from acts_core.wire.sample_kernels import COUNT_RANGE, INDEX_RANGE, INDEX_REPEATED, first_fault
@@ -126,7 +127,7 @@ class StreamDecoder(DelimitedDecoder):
     ----------
     on_message : callable, optional
         Called within `feed` with everything else that the board says: `Reply`, `BoardImage` or `BoardObject`, in the
-        order of the stream. It must not raise.
+        order of the stream; and with an `UnknownReply`, which counts as malformed. It must not raise.
 
     Attributes
     ----------
@@ -194,7 +195,13 @@ class StreamDecoder(DelimitedDecoder):
         return SampleFrame(sequence, board_us, duration_us, _SCHEMES[scheme], rows, cols, overruns, indices, counts)
 
     def _take_message(self, packet: memoryview) -> None:
-        message = decode_message(packet.tobytes())
+        try:
+            message = decode_message(packet.tobytes())
+        except UnknownReplyError as error:
+            # Who has asked is to know which version it is that cannot be read.
+            if self._on_message is not None:
+                self._on_message(error.reply)
+            raise
         self.messages += 1
         if self._on_message is not None:
             self._on_message(message)

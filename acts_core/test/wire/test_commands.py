@@ -7,6 +7,7 @@ import dataclasses
 import struct
 import zlib
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 import pytest
@@ -28,6 +29,7 @@ from acts_core.wire import (
     Reply,
     ReplyStatus,
     StreamDecoder,
+    UnknownReply,
     cobs,
     encode_configure,
     encode_frame,
@@ -44,6 +46,8 @@ from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, enco
 from acts_core.wire.packets import PacketType, seal
 
 pytestmark = pytest.mark.slow
+
+KnownMessage: TypeAlias = Reply | BoardImage | BoardObject
 
 U8, U16, U32, U64 = (st.integers(0, 2**bits - 1) for bits in (8, 16, 32, 64))
 
@@ -99,7 +103,7 @@ def objects(draw: st.DrawFn) -> BoardObject:
 MESSAGES = st.one_of(REPLIES, images(), objects())
 
 
-def encoded(message: BoardMessage) -> bytes:
+def encoded(message: KnownMessage) -> bytes:
     """As a board sends it; images and objects are put together as docs/wire_protocol.md describes them."""
     if isinstance(message, Reply):
         return encode_reply(message)
@@ -215,7 +219,7 @@ def test_every_setting_has_a_number() -> None:
 
 
 @given(st.lists(MESSAGES, max_size=4), st.lists(st.integers(0, 2000), max_size=6))
-def test_messages_round_trip_between_frames(sent: list[BoardMessage], cuts: list[int]) -> None:
+def test_messages_round_trip_between_frames(sent: list[KnownMessage], cuts: list[int]) -> None:
     frame = SampleFrame(1, 2, 3, Scheme.RASTER, 1, 1, 0, np.zeros(1, np.uint16), np.ones(1, np.uint16))
     received: list[BoardMessage] = []
     decoder = StreamDecoder(on_message=received.append)
@@ -229,7 +233,7 @@ def test_messages_round_trip_between_frames(sent: list[BoardMessage], cuts: list
 
 
 @given(MESSAGES, st.sets(st.integers(0, 2**17), min_size=1, max_size=8))
-def test_flipped_bits_never_yield_a_wrong_message(sent: BoardMessage, bits: set[int]) -> None:
+def test_flipped_bits_never_yield_a_wrong_message(sent: KnownMessage, bits: set[int]) -> None:
     stream = bytearray(encoded(sent))
     for bit in {bit % (8 * len(stream)) for bit in bits}:
         stream[bit // 8] ^= 1 << bit % 8
@@ -269,6 +273,20 @@ def test_replies_of_another_release_are_malformed(offset: int, value: int, words
     assert decoder.malformed == 1
     assert words in decoder.last_error
     assert "same release" in decoder.last_error
+
+
+def test_of_a_reply_of_another_release_is_known_who_answers_what() -> None:
+    """Firmware that has a setting more, whatever comes of the rest."""
+    content = unstuffed(encode_reply(example_reply()))[4:-4]
+    received: list[BoardMessage] = []
+    decoder = StreamDecoder(on_message=received.append)
+    decoder.feed(seal(PacketType.REPLY, content[:66] + bytes(2) + content[66:]))
+    assert received == [UnknownReply(9, (1, 2, 3), decoder.last_error)]
+    assert f"reply of {len(content) + 2} bytes" in decoder.last_error
+    assert (decoder.messages, decoder.malformed) == (0, 1)
+    # Too short even for that.
+    decoder.feed(seal(PacketType.REPLY, content[:31]))
+    assert (len(received), decoder.malformed) == (1, 2)
 
 
 def test_replies_say_what_is_wrong() -> None:

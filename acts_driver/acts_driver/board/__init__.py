@@ -7,7 +7,7 @@ In come the driver's parameters and the board's replies; out go commands. `Board
 equal to the parameters.
 """
 
-from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
+from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError, UnknownAnswerError
 from acts_driver.board.parameters import BOARD_PARAMETERS, BoardParameters
 from acts_driver.board.results import BoardResult, BoardResults
 from acts_driver.board.session import BoardSession, BoardStatus
@@ -24,6 +24,7 @@ __all__ = [
     "NoAnswerError",
     "NotHeardError",
     "RefusedError",
+    "UnknownAnswerError",
     "settings_in_words",
     "version_in_words",
 ]

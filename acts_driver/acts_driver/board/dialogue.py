@@ -20,6 +20,7 @@ from acts_core.wire import (
     BoardSettings,
     Reply,
     ReplyStatus,
+    UnknownReply,
     encode_configure,
     encode_map_data,
     encode_map_end,
@@ -54,6 +55,14 @@ class NoAnswerError(BoardError):
 
 class NotHeardError(NoAnswerError):
     """Whether the board answers is not known: this machine is too busy to read what it sends."""
+
+
+class UnknownAnswerError(BoardError):
+    """The board answers as this release does not know it; `reply` is what is known of its answer."""
+
+    def __init__(self, reply: UnknownReply) -> None:
+        super().__init__(f"the board answers as this driver does not know it ({reply.problem})")
+        self.reply = reply
 
 
 class RefusedError(BoardError):
@@ -99,20 +108,21 @@ class BoardLink:
         self._arrived = threading.Condition()
         # Replies to an earlier process may still arrive: begin at a request number of our own.
         self._request = time.monotonic_ns() & 0xFFFFFFFF
-        self._reply: Reply | None = None
+        self._reply: Reply | UnknownReply | None = None
 
     def receive(self, message: BoardMessage) -> None:
         """Handle a message of the board, on the reader's thread: the reply to the last command, or a result.
 
         A result tells how long the board computes, and hears nothing, after each frame.
         """
-        if not isinstance(message, Reply):
+        if not isinstance(message, Reply | UnknownReply):
             self._computing_s = min(message.duration_us * 1e-6, COMPUTING_MAX_S)
             return
-        if message.state.samples_only or message.state.settings.output == "samples":
-            self._computing_s = 0.0
-        elif not self._computing_s:
-            self._computing_s = FIRST_RESULT_S
+        if isinstance(message, Reply):
+            if message.state.samples_only or message.state.settings.output == "samples":
+                self._computing_s = 0.0
+            elif not self._computing_s:
+                self._computing_s = FIRST_RESULT_S
         with self._arrived:
             if message.request == self._request:
                 self._reply = message
@@ -126,6 +136,8 @@ class BoardLink:
         ------
         NoAnswerError
             No reply came, however often it was asked; `NotHeardError` where one may have come that was not read yet.
+        UnknownAnswerError
+            One came that this release does not know.
         PortError
             The port is not open, was lost, or takes no bytes.
         RefusedError
@@ -208,16 +220,14 @@ class BoardLink:
                 self._write(packet, self._timeout_s)
                 with self._arrived:
                     if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s):
-                        assert self._reply is not None
-                        return self._reply
+                        return self._known()
             # Not before this machine has seen that there is none: a busy one reads late.
             has_heard_all = self._catch_up(CATCH_UP_S)
             with self._arrived:
                 # The answer may be behind the frames that waited on the board until this machine read, or the board
                 # still be busy with the last frame.
                 if self._arrived.wait_for(lambda: self._reply is not None, self._timeout_s + self._computing_s):
-                    assert self._reply is not None
-                    return self._reply
+                    return self._known()
         if not has_heard_all:
             raise NotHeardError(
                 "this machine is too slow or too busy to read all that the board sends, an answer among it perhaps "
@@ -226,6 +236,13 @@ class BoardLink:
         if self._has_answered:
             raise NoAnswerError("the board does not answer commands any more (it hangs, or is another one)")
         raise NoAnswerError("the board does not answer commands (an older firmware, or another sketch)")
+
+    def _known(self) -> Reply:
+        """The reply that has come."""
+        assert self._reply is not None
+        if isinstance(self._reply, UnknownReply):
+            raise UnknownAnswerError(self._reply)
+        return self._reply
 
     @staticmethod
     def _done(reply: Reply) -> Reply:

@@ -15,7 +15,7 @@ from acts_core.errors import ActsError, BoardError, PortError
 from acts_core.runtime import LogCallback
 from acts_core.settings import is_given
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
-from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError
+from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError, UnknownAnswerError
 from acts_driver.board.layout import BoardLayout
 from acts_driver.board.model_file import BoardModelFile
 from acts_driver.board.parameters import BoardParameters
@@ -261,6 +261,12 @@ class BoardSession:
             # What was known of the board still is.
             if self.status.state is None and not self.status.is_silent:
                 self._set(BoardStatus(problem=str(error)))
+        except UnknownAnswerError as error:
+            version = error.reply.firmware_version
+            is_other = version[:2] != FIRMWARE
+            # Of this version but not known, as with a scheme of somebody's own, its frames are read all the same.
+            problem = other_version(version, FIRMWARE) if is_other else str(error)
+            self._set(BoardStatus(problem=problem, is_wrong_version=is_other, is_silent=not is_other))
         except NoAnswerError as error:
             self._set(BoardStatus(problem=str(error), is_silent=True))
         except BoardError as error:
@@ -280,7 +286,9 @@ class BoardSession:
             self._begin_anew(state)
         self._seen, self._seen_s = state, time.monotonic()
         if state.firmware_version[:2] != FIRMWARE:
-            self._set(BoardStatus(state, is_wrong_version=True, problem=other_version(state, FIRMWARE)))
+            self._set(
+                BoardStatus(state, is_wrong_version=True, problem=other_version(state.firmware_version, FIRMWARE))
+            )
             return
         problem = self._refusal if self._refused is not None else self._mismatch(state)
         self._set(BoardStatus(state, problem=problem))
@@ -333,7 +341,7 @@ class BoardSession:
         self._uploading = model
         try:
             reply = self._link.upload(model, is_wanted)
-        except (NoAnswerError, PortError):
+        except (NoAnswerError, UnknownAnswerError, PortError):
             # The next round tells what has become of the board.
             return
         except RefusedError as error:

@@ -19,13 +19,17 @@ def settings_in_words(settings: BoardSettings) -> str:
 
 def version_in_words(state: BoardState) -> str:
     """A firmware version for a person."""
-    return ".".join(map(str, state.firmware_version))
+    return _with_dots(state.firmware_version)
 
 
-def other_version(state: BoardState, needed: tuple[int, int]) -> str:
+def _with_dots(version: tuple[int, int, int]) -> str:
+    return ".".join(map(str, version))
+
+
+def other_version(version: tuple[int, int, int], needed: tuple[int, int]) -> str:
     """That the firmware is of another version than the driver needs, major and minor."""
     return (
-        f"the board's firmware is {version_in_words(state)}, this driver needs {needed[0]}.{needed[1]}.x: load the "
+        f"the board's firmware is {_with_dots(version)}, this driver needs {needed[0]}.{needed[1]}.x: load the "
         "firmware of the driver's release onto the board; its frames are not published"
     )
 

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardMessage, Reply
+from acts_core.wire import BoardMessage, Reply, UnknownReply
 from acts_driver.protocols import Decoder
 
 
@@ -33,7 +33,7 @@ class StaleFrames:
 
     def receive(self, message: BoardMessage) -> None:
         """Note the first reply; called with every message while bytes are decoded."""
-        if isinstance(message, Reply) and self._before_answer is None:
+        if isinstance(message, Reply | UnknownReply) and self._before_answer is None:
             self._before_answer = self._decoder.frames
 
     def new(self, frames: list[SampleFrame], *, is_known: bool) -> list[SampleFrame]:

@@ -14,7 +14,7 @@ from dataclasses import replace
 from acts_core.errors import PortError
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardSettings, BoardState
-from acts_driver.board import BoardLink, NoAnswerError, NotHeardError, RefusedError
+from acts_driver.board import BoardLink, NoAnswerError, NotHeardError, RefusedError, UnknownAnswerError
 from acts_driver.port import Reader, SerialSource
 from acts_driver.protocols import protocol_named
 from acts_driver.selftest import FrameRecord
@@ -90,7 +90,7 @@ class BoardReader:
             return self._link.query().state
         except NotHeardError:
             raise
-        except (NoAnswerError, RefusedError):
+        except (NoAnswerError, RefusedError, UnknownAnswerError):
             return None
 
     @contextmanager
