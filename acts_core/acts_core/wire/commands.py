@@ -366,6 +366,10 @@ def _decode_known_reply(content: bytes) -> Reply:
     )
     if kind not in list(ModelKind):
         raise version_mismatch(f"reply with a model of kind {kind}")
+    model = HeldModel(ModelKind(kind), rows, columns, side, step, n_objects, crc32)
+    if model.kind is ModelKind.NONE and model != NO_MODEL:
+        # A reply with two settings less is as long as one without the layout; only this tells them apart.
+        raise version_mismatch("reply with a size of the model, but without one")
     state = BoardState(
         firmware_version=(major, minor, patch),
         board_id=board_id,
@@ -373,7 +377,7 @@ def _decode_known_reply(content: bytes) -> Reply:
         settings=BoardSettings.from_bytes(content[_REPLY_HEAD.size : tail]),
         samples_only=bool(flags & _FLAG_SAMPLES_ONLY),
         uploading=bool(flags & _FLAG_UPLOADING),
-        model=HeldModel(ModelKind(kind), rows, columns, side, step, n_objects, crc32),
+        model=model,
         model_capacity_bytes=capacity,
         overruns=overruns,
         bad_commands=bad_commands,

@@ -42,7 +42,7 @@ from acts_core.wire import (
 )
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_core.wire.board_settings import SETTINGS_SIZE
-from acts_core.wire.commands import BoardSettings, HeldModel, SettingField, encode_reply
+from acts_core.wire.commands import NO_MODEL, BoardSettings, HeldModel, SettingField, encode_reply
 from acts_core.wire.packets import PacketType, seal
 
 pytestmark = pytest.mark.slow
@@ -79,7 +79,8 @@ def board_settings(draw: st.DrawFn) -> BoardSettings:
     )
 
 
-HELD = st.builds(HeldModel, st.sampled_from(ModelKind), U16, U16, U8, U8, U8, U32)
+KINDS = st.sampled_from([kind for kind in ModelKind if kind is not ModelKind.NONE])
+HELD = st.just(NO_MODEL) | st.builds(HeldModel, KINDS, U16, U16, U8, U8, U8, U32)
 STATES = st.builds(
     BoardState, st.tuples(U8, U8, U8), U64, U64, board_settings(), st.booleans(), st.booleans(), HELD, U32, U32, U32
 )
@@ -287,6 +288,18 @@ def test_of_a_reply_of_another_release_is_known_who_answers_what() -> None:
     # Too short even for that.
     decoder.feed(seal(PacketType.REPLY, content[:31]))
     assert (len(received), decoder.malformed) == (1, 2)
+
+
+def test_a_reply_with_two_settings_less_is_not_read_as_one_without_the_layout() -> None:
+    """It has that length: of a board without a scheme of two settings that this host has."""
+    state = dataclasses.replace(example_reply().state, map_crc32=5)
+    content = unstuffed(encode_reply(example_reply(state=state)))[4:-4]
+    end = 32 + SETTINGS_SIZE
+    received: list[BoardMessage] = []
+    decoder = StreamDecoder(on_message=received.append)
+    decoder.feed(seal(PacketType.REPLY, content[: end - 4] + content[end:]))
+    assert [type(message) for message in received] == [UnknownReply]
+    assert "with the same schemes" in decoder.last_error
 
 
 def test_replies_say_what_is_wrong() -> None:
