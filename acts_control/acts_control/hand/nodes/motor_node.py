@@ -137,9 +137,11 @@ class MotorNode(PollingNode):
             # What is told as read is what was sent: no heat, no current, and no torque that were off.
             if status.phase in (HandPhase.RELEASED, HandPhase.GIVEN_UP):
                 words = f"{words}; {TORQUE_STAYS}"
-            if not self.count_subscribers(_CMD_LEAP):
+            # ROS counts for a name as it is given, without what a launch file remaps.
+            topic = self.resolve_topic_name(_CMD_LEAP)
+            if not self.count_subscribers(topic):
                 level = max(level, WARN)
-                words = f"nobody takes {self.resolve_topic_name(_CMD_LEAP)}: start the LEAP team's node; {words}"
+                words = f"nobody takes {topic}: start the LEAP team's node; {words}"
         elif status.reading is not None:
             values["hottest_c"] = max(status.reading.temperature_c)
             values["largest_current_ma"] = max(map(abs, status.reading.current_ma))

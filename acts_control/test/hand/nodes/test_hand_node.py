@@ -19,6 +19,7 @@ from hand_node_rig import node_and_user
 from peers import Peers
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -165,6 +166,24 @@ def test_goals_that_the_middleware_does_not_take_count_as_not_sent(monkeypatch: 
             bus.command([0.2] * 16)
         assert bus.read().q_rad == (0.1,) * 16
     finally:
+        user.close()
+
+
+def test_whether_somebody_takes_the_angles_is_judged_by_the_topic_that_they_are_remapped_to() -> None:
+    user = Peers(CMD_LEAP_DOMAIN_ID, "user")
+    node = user.add(
+        HandNode(
+            context=user.context,
+            cli_args=["--ros-args", "-r", "cmd_leap:=/leap/angles"],
+            parameter_overrides=[Parameter("interface", value="cmd_leap")],
+        )
+    )
+    try:
+        user.until(lambda: "nobody takes /leap/angles" in node.report()[1])
+        user.listen(JointState, "/leap/angles", 10)
+        user.until(lambda: "nobody takes" not in node.report()[1])
+    finally:
+        node.close()
         user.close()
 
 
