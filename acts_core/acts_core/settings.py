@@ -37,6 +37,9 @@ T = TypeVar("T")
 
 SettingValue = bool | int | float | str | tuple[float, ...] | tuple[str, ...]
 
+POWER_RULE = "1e-3 and 1.0e3 are text in YAML, write 1.0e-3 and 1.0e+3"
+"""How YAML wants numbers with an exponent, for messages: with a point and with a sign."""
+
 _METADATA_KEY = "acts_setting"
 
 
@@ -156,7 +159,7 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     try:
         converted = _converted(value, default)
     except (TypeError, ValueError, OverflowError):
-        hint = " (1e-3 is text in YAML, write 1.0e-3)" if isinstance(default, float) and _is_power(value) else ""
+        hint = f" ({POWER_RULE})" if isinstance(default, float) and _is_power(value) else ""
         raise _error(name, value, f"a value of type {_type_name(default)}{hint}", info) from None
     if info.choices and converted not in info.choices:
         raise _error(name, value, "", info)

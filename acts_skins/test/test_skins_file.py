@@ -173,6 +173,7 @@ def test_a_wrong_key_of_a_skin_is_told_with_its_place(tmp_path: Path, lines: lis
     [
         (["m: 0.5"], ["skins.yaml:4: skin left: m = 0.5"]),
         (["pitch_m: 4e-3"], ["skins.yaml:4: skin left: pitch_m = '4e-3'", "write 1.0e-3", "0 to 1"]),
+        (["driver: {rate_cap_hz: 1.0e3}"], ["skins.yaml:4: skin left: driver: rate_cap_hz = '1.0e3'", "and 1.0e+3"]),
         (["scheme: adaptiv"], ["skins.yaml:4: skin left: scheme = 'adaptiv'", "adaptive"]),
         (["rows: 65"], ["skins.yaml:4: skin left: rows = 65", "1 to 64"]),
         (["rows: 7", "cols: 7"], ["skins.yaml:3: skin left: m = 55: an array of 7 x 7 has 49 taxels"]),
@@ -201,6 +202,7 @@ def test_a_wrong_parameter_is_told_with_its_place(tmp_path: Path, lines: list[st
         ("pose: {parent: torso, position_m: [0, 0]}", ["position_m = [0, 0]: allowed are 3 finite numbers"]),
         ("pose: {parent: torso, position_m: [0, 0, .nan]}", ["position_m", "finite"]),
         ("pose: {parent: torso, position_m: [0, 0, 1e-3]}", ["write 1.0e-3"]),
+        ("pose: {parent: torso, position_m: [0, 0, 1.0e3]}", ["1.0e+3"]),
         ("pose: {parent: torso, rpy_rad: [0, 0, 0], quaternion_xyzw: [0, 0, 0, 1]}", ["give one of them"]),
         ("pose: {parent: torso, quaternion_xyzw: [0, 0, 0, 2]}", ["its length is 2, needed is 1"]),
         ("pose: {parent: torso, rpi_rad: [0, 0, 0]}", ["did you mean 'rpy_rad'?"]),

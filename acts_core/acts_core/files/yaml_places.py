@@ -17,7 +17,7 @@ import yaml
 from acts_core.errors import SettingsError
 from acts_core.files.regular_file import read_text
 from acts_core.names import RULE
-from acts_core.settings import unknown_key_message
+from acts_core.settings import POWER_RULE, unknown_key_message
 from acts_core.transforms import Quaternion, Transform, Vector
 from acts_core.yaml_values import YamlLoader
 
@@ -153,7 +153,7 @@ class Section:
         if not isinstance(given, (list, tuple)) or len(given) != len(default) or not all(map(is_number, given)):
             raise self.error(
                 f"{key} = {shown(given)}: allowed are {len(default)} finite numbers, such as [0.1, 0, -1.5e-3] "
-                "(1e-3 is text in YAML, write 1.0e-3)",
+                f"({POWER_RULE})",
                 key,
             )
         return tuple(float(number) for number in given)
