@@ -19,6 +19,8 @@ from acts_skins.tactile_parameters import TactileParameters, tactile_parameters
 
 _RESPAWN_DELAY_S = 0.02
 _BOARD_RATE_HZ = 1000.0
+# The largest that the option of a simulated board takes; its measurements take longer anyway.
+_BOARD_RATE_MAX_HZ = 100_000.0
 _FIRST_BOARD_ID = 0x4143_5453_0000_0001
 
 
@@ -122,7 +124,7 @@ class SkinProcesses:
 def _board_options(driver: DriverSettings) -> list[str]:
     """Options of a simulated board that match the driver's parameters."""
     words = ["--rows", f"{driver.rows}", "--cols", f"{driver.cols}", "--protocol", driver.protocol]
-    words += ["--rate-hz", f"{driver.rate_cap_hz or _BOARD_RATE_HZ}"]
+    words += ["--rate-hz", f"{min(driver.rate_cap_hz or _BOARD_RATE_HZ, _BOARD_RATE_MAX_HZ)}"]
     if driver.scheme:
         words += ["--scheme", driver.scheme]
     if driver.m:

@@ -252,6 +252,16 @@ def test_the_boards_of_simulated_skins_are_as_the_file_says(tmp_path: Path) -> N
     assert "driver.port=/run/right/board" in commands["right/tactile"]
 
 
+@pytest.mark.parametrize(("rate_cap_hz", "rate_hz"), [("1.0e+6", "100000.0"), ("500", "500.0"), ("0", "1000.0")])
+def test_a_simulated_board_takes_every_rate_cap_that_a_driver_takes(
+    tmp_path: Path, rate_cap_hz: str, rate_hz: str
+) -> None:
+    """A board of hardware takes a period of a microsecond, too."""
+    path = skins_yaml(tmp_path, TWO.replace("m: 64", f"driver: {{rate_cap_hz: {rate_cap_hz}}}"))
+    commands = plan(path, simulated=True)
+    assert f" --rate-hz {rate_hz} " in commands["right/virtual_board"]
+
+
 @pytest.mark.parametrize(
     ("change", "simulated", "words"),
     [
