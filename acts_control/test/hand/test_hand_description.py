@@ -124,6 +124,15 @@ def test_the_skin_of_the_other_hand_has_its_regions_on_its_links(tmp_path: Path)
     assert left.normals()[0, 0] == pytest.approx([-1, 0, 0], abs=1e-6)
 
 
+def test_the_file_of_a_hand_may_be_named_from_the_home_folder_on_as_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a params file, and behind `hand:=`, no shell replaces the ~."""
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "gripper.yaml").write_text(GRIPPER)
+    assert hand_description("~/gripper.yaml").name == "gripper"
+
+
 def test_a_file_that_was_changed_is_read_anew(tmp_path: Path) -> None:
     path = tmp_path / "gripper.yaml"
     path.write_text(GRIPPER)

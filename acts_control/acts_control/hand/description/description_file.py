@@ -11,7 +11,7 @@ from pathlib import Path
 
 from acts_control.hand.description.description import ROLES, Finger, HandDescription, Joint, Link, Region
 from acts_core.errors import SettingsError
-from acts_core.files import Section, is_there, read_yaml
+from acts_core.files import Section, is_there, path_of, read_yaml
 from acts_core.transforms import Vector
 
 _SHIPPED = Path(__file__).parent / "hands"
@@ -30,7 +30,7 @@ def hand_description(name_or_path: str) -> HandDescription:
         With file and line, where something is missing, unknown, or cannot be.
     """
     if name_or_path.endswith((".yaml", ".yml")):
-        return _read(Path(name_or_path))
+        return _read(path_of(name_or_path, error=SettingsError))
     return _shipped(name_or_path)
 
 
