@@ -19,10 +19,12 @@ import select
 import socket
 import struct
 import time
+import zlib
 from collections.abc import MutableSequence
 from pathlib import Path
 
 from acts_core.errors import ActsError
+from acts_core.names import own_words
 
 STANDBY_WORD = "--standby"
 """Argument of equal processes of a launch, of which one at a time is to work."""
@@ -42,7 +44,7 @@ class Standby:
     Parameters
     ----------
     name : str
-        What the processes are, with what tells them from other processes of the launch, such as the namespace.
+        What the processes are, with what tells them from other processes of the launch; up to 64 characters.
     """
 
     def __init__(self, name: str) -> None:
@@ -108,7 +110,10 @@ def take_standby_word(words: MutableSequence[str]) -> Standby | None:
         return None
     words.remove(STANDBY_WORD)
     namespace = next((word.partition(_NAMESPACE_RULE)[2] for word in words if word.startswith(_NAMESPACE_RULE)), "")
-    return Standby(f"{namespace.strip('/')}/{Path(words[0]).name}".lstrip("/"))
+    # A process of the same name with other arguments, as those of another board, is no spare of this one. In a number,
+    # because the name of a socket is short.
+    equal = zlib.crc32(os.fsencode("\0".join([namespace.strip("/"), *own_words(words)[1:]])))
+    return Standby(f"{Path(words[0]).name}/{equal:08x}")
 
 
 def say_ready() -> None:

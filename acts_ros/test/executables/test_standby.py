@@ -116,6 +116,19 @@ def test_processes_of_another_namespace_work_beside_one_another(start: Start) ->
         assert start(*words).lines(2) == ["imported", " ".join(["works", *words])]
 
 
+def test_a_namespace_may_be_as_long_as_ros_takes_it(start: Start) -> None:
+    words = ["--ros-args", "-r", f"__ns:=/{200 * 'a'}"]
+    assert start(*words).lines(2) == ["imported", " ".join(["works", *words])]
+    assert start(*words).lines(3) == READY
+
+
+def test_a_process_of_another_board_is_no_spare(start: Start) -> None:
+    """As where two includes of a launch file were given the same namespace: it would take over with its own board."""
+    for port in ("serial:1", "serial:2"):
+        words = ["--set", f"driver.port={port}", "--ros-args", "-r", "__ns:=/plate"]
+        assert start(*words).lines(2) == ["imported", " ".join(["works", *words])]
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_spare_that_waits_ends_in_order(start: Start, number: signal.Signals) -> None:
     worker = start()
