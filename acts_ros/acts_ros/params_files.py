@@ -53,7 +53,8 @@ def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
 def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
     """Sections of params files that look meant for a node but give it nothing, which ROS passes over silently.
 
-    They have the node's name without its namespace, or nearly its name.
+    They have the node's name without its namespace, or nearly its name; or its name in nearly its namespace, where no
+    section is for this node alone. Of namespaces that are only numbered differently, each is another's.
 
     Parameters
     ----------
@@ -65,10 +66,12 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
     list of str
         A sentence about each, with the name that is right.
     """
-    name = node.rpartition("/")[2]
+    own_place, _, name = node.rpartition("/")
     said = []
     given_files = [Path(value) for option, value in _ros_options(words) if option == "--params-file"]
-    for file, section in dict.fromkeys((path, section) for path in given_files for section, _ in _keys_of_file(path)):
+    sections = dict.fromkeys((path, section) for path in given_files for section, _ in _keys_of_file(path))
+    has_own = any(section == node for _, section in sections)
+    for file, section in sections:
         place, _, given = section.rpartition("/")
         if re.fullmatch(_pattern(section), node):
             continue
@@ -76,7 +79,15 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
         is_misspelt = given != name and difflib.get_close_matches(given, [name], cutoff=_NEAR)
         if lacks_namespace or (is_misspelt and re.fullmatch(_pattern(f"{place}/{name}"), node)):
             said.append(f"{file}: section {section} is not for {node}, and ignored; did you mean /**/{name}?")
+        elif given == name and not has_own and _is_misspelt(place, own_place):
+            said.append(f"{file}: section {section} is not for {node}, and ignored; did you mean {node}?")
     return said
+
+
+def _is_misspelt(place: str, meant: str) -> bool:
+    """Whether a namespace is nearly another, and not only of another number."""
+    one, other = (re.sub(r"\d+", "", text) for text in (place, meant))
+    return one != other and bool(difflib.get_close_matches(place, [meant], cutoff=_NEAR))
 
 
 def _ros_options(words: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -97,6 +97,25 @@ def test_a_section_of_another_node_or_of_this_one_is_not_said(tmp_path: Path, se
     assert misnamed_sections("/plate/example", ["x", "--ros-args", *file]) == []
 
 
+@pytest.mark.parametrize("section", ["/plat/example", "plat: {example", "/plates/example"])
+def test_a_section_of_nearly_the_nodes_namespace_is_said(
+    context: Context, tmp_path: Path, capfd: pytest.CaptureFixture[str], section: str
+) -> None:
+    text = f"{section}: {{ros__parameters: {{rate_hz: 10.0}}}}" + "}" * section.count("{")
+    assert declared(context, *params_file(tmp_path, text)) == Settings()
+    name = section.replace(": {", "/").strip("/")
+    said = f"section /{name} is not for /plate/example, and ignored; did you mean /plate/example?"
+    assert capfd.readouterr().err.count(said) == 1
+
+
+@pytest.mark.parametrize(
+    "sections", [["/right/example"], ["/skin_2/example"], ["/skins_1/example", "/skin_1/example"], ["/skins_1/other"]]
+)
+def test_of_a_file_for_several_the_section_of_another_is_not_said(tmp_path: Path, sections: list[str]) -> None:
+    text = "".join(f"{section}: {{ros__parameters: {{rate_hz: 1.0}}}}\n" for section in sections)
+    assert misnamed_sections("/skin_1/example", ["x", "--ros-args", *params_file(tmp_path, text)]) == []
+
+
 def test_a_key_on_the_command_line_is_refused_even_if_a_file_has_it(context: Context, tmp_path: Path) -> None:
     file = params_file(tmp_path, "/**: {ros__parameters: {rats_hz: 10.0}}")
     for words in (["-p", "rats_hz:=1.0"], ["--param", "example:rats_hz:=1.0"]):
