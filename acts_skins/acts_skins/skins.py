@@ -50,9 +50,16 @@ def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) 
             environment=os.environ,
         ).plan()
         launcher = Launcher(Console(None), _SIGTERM_AFTER_S, _SIGKILL_AFTER_S, name="skins", ends_on_refusal=False)
-        # As it was given: one that begins with ~ is refused.
-        with _claim(options.run_dir) if _TRUTHS[options.sim] else contextlib.nullcontext():
+        if not _TRUTHS[options.sim]:
             return launcher.run(plan)
+        # As it was given: one that begins with ~ is refused.
+        with _claim(options.run_dir):
+            code = launcher.run(plan)
+            for skin in skins_file.skins:
+                # An empty one would be in the way of a port of its name: that of hand_reflexes.launch.xml is `hand`.
+                with contextlib.suppress(OSError):
+                    (options.run_dir / skin.name).rmdir()
+            return code
 
 
 def _claim(run_dir: Path) -> contextlib.closing[FileClaim]:

@@ -129,7 +129,8 @@ def test_a_skin_that_is_killed_comes_again_and_the_other_notices_nothing(listene
         assert skins.output.count("sending signal 'SIGINT'") == 6
         assert "sending signal 'SIGTERM'" not in skins.output
         assert "Traceback" not in skins.output
-        assert not list((tmp_path / "run").rglob("*"))[2:], list((tmp_path / "run").rglob("*"))
+        # A folder that stays would be in the way of a port of its name, as that of the hand.
+        assert list((tmp_path / "run").rglob("*")) == []
 
 
 @pytest.mark.parametrize("listener", [(161, "/left/contact")], indirect=True)
