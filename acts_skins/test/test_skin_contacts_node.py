@@ -223,6 +223,24 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
         ended_in_order(process)
 
 
+@pytest.mark.parametrize("robot", [164], indirect=True)
+def test_a_skin_whose_contacts_cannot_be_read_is_lost_and_not_untouched(robot: Robot, tmp_path: Path) -> None:
+    """As of another machine with messages of another release."""
+    robot.skin("left")
+    reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
+    words = "left is lost: its newest contacts cannot be read"
+
+    def send() -> None:
+        robot.send("left", header_bytes(robot.peer.get_clock().now().nanoseconds, "left") + b"\xff" * 60)
+
+    with running(tmp_path, 164) as process:
+        robot.until(lambda: any(words in status.message for array in reports for status in array.status), send)
+        assert {states(message)["left"] for message in robot.merged} == {LOST}
+        robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left", 2.0))
+        assert [contact.skin for contact in robot.merged[-1].contacts] == ["left"]
+        ended_in_order(process)
+
+
 @pytest.mark.parametrize("robot", [165], indirect=True)
 def test_another_base_all_that_presses_as_one_and_a_thousand_times_a_second(robot: Robot, tmp_path: Path) -> None:
     robot.skin("left", Contact)

@@ -117,21 +117,23 @@ class SkinContactsNode(PollingNode):
                     continue
                 self._aligner.take(name, stamp_ns, data, now_ns)
         aligned = self._aligner.step(now_ns)
-        self._publisher.publish(self._message(aligned))
+        read = [self._read(skin) for skin in aligned.skins]
+        aligned = replace(aligned, skins=tuple(skin for skin, _ in read))
+        self._publisher.publish(self._message(aligned, [touched for _, touched in read]))
         self._aligned = aligned
         self._tell_changes(aligned)
 
-    def _message(self, aligned: Aligned[bytes]) -> SkinContacts:
+    def _message(self, aligned: Aligned[bytes], touched: list[list[Touch]]) -> SkinContacts:
         message = SkinContacts()
         message.header.frame_id = self._base_frame
         set_stamp(message.header.stamp, aligned.time_ns)
         skins: list[StateMessage] = []
         contacts: list[SkinContact] = []
-        for skin in aligned.skins:
+        for skin, touches_of_skin in zip(aligned.skins, touched, strict=True):
             state = StateMessage(name=skin.name, state=skin.state.value, age=skin.age_s)
-            if skin.frame is not None and skin.stamp_ns is not None:
+            if skin.stamp_ns is not None:
                 set_stamp(state.stamp, skin.stamp_ns)
-                for touch in self._touches(skin.name, skin.frame):
+                for touch in touches_of_skin:
                     if not touch.can_be():
                         self._refused[skin.name, "with impossible values"] += 1
                         continue
@@ -142,12 +144,15 @@ class SkinContactsNode(PollingNode):
         message.skins, message.contacts = skins, contacts
         return message
 
-    def _touches(self, name: str, data: bytes) -> list[Touch]:
+    def _read(self, skin: AlignedSkin[bytes]) -> tuple[AlignedSkin[bytes], list[Touch]]:
+        """A skin and its contacts; lost where these cannot be read, since nobody knows then whether it is touched."""
+        if skin.frame is None:
+            return skin, []
         try:
-            return touches(message_of(data, self._kind))
+            return skin, touches(message_of(skin.frame, self._kind))
         except PacketError:
-            self._refused[name, "that cannot be read"] += 1
-            return []
+            self._refused[skin.name, "that cannot be read"] += 1
+            return replace(skin, state=SkinState.LOST, stamp_ns=None, age_s=0.0, frame=None), []
 
     def _tell_changes(self, aligned: Aligned[bytes]) -> None:
         for skin in aligned.skins:
@@ -161,6 +166,8 @@ class SkinContactsNode(PollingNode):
     def _why(self, skin: AlignedSkin[bytes], counters: Counters) -> str:
         """Why a skin is stale or lost, by what came of it since the last report."""
         before = self._received_before[skin.name]
+        if skin.silent_s is not None and skin.silent_s <= skin.stale_after_s:
+            return "its newest contacts cannot be read"
         if counters.frames > before.frames and counters.late_s > skin.stale_after_s:
             return (
                 f"its contacts are {counters.late_s:.3g} s old when they come: its clock lies behind "
