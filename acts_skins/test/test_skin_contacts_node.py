@@ -228,7 +228,7 @@ def test_a_skin_whose_contacts_cannot_be_read_is_lost_and_not_untouched(robot: R
     """As of another machine with messages of another release."""
     robot.skin("left")
     reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
-    words = "left is lost: its newest contacts cannot be read"
+    words = "left is lost: its newest contacts cannot be used"
 
     def send() -> None:
         robot.send("left", header_bytes(robot.peer.get_clock().now().nanoseconds, "left") + b"\xff" * 60)
@@ -238,6 +238,23 @@ def test_a_skin_whose_contacts_cannot_be_read_is_lost_and_not_untouched(robot: R
         assert {states(message)["left"] for message in robot.merged} == {LOST}
         robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left", 2.0))
         assert [contact.skin for contact in robot.merged[-1].contacts] == ["left"]
+        ended_in_order(process)
+
+
+@pytest.mark.parametrize("robot", [164], indirect=True)
+def test_a_skin_none_of_whose_contacts_can_be_is_lost_and_not_untouched(robot: Robot, tmp_path: Path) -> None:
+    robot.skin("left")
+    reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
+    words = "contacts of left with impossible values dropped"
+
+    def press() -> None:
+        robot.press("left", math.nan, math.inf)
+
+    with running(tmp_path, 164) as process:
+        robot.until(lambda: any(words in status.message for array in reports for status in array.status), press)
+        assert {states(message)["left"] for message in robot.merged} == {LOST}
+        # Nobody touches it.
+        robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left"))
         ended_in_order(process)
 
 

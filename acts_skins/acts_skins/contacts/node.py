@@ -134,9 +134,6 @@ class SkinContactsNode(PollingNode):
             if skin.stamp_ns is not None:
                 set_stamp(state.stamp, skin.stamp_ns)
                 for touch in touches_of_skin:
-                    if not touch.can_be():
-                        self._refused[skin.name, "with impossible values"] += 1
-                        continue
                     placed = self._placements[skin.name].place(touch)
                     contacts.append(skin_contact(skin.name, self._links[skin.name], placed))
                     state.contacts += 1
@@ -145,14 +142,19 @@ class SkinContactsNode(PollingNode):
         return message
 
     def _read(self, skin: AlignedSkin[bytes]) -> tuple[AlignedSkin[bytes], list[Touch]]:
-        """A skin and its contacts; lost where these cannot be read, since nobody knows then whether it is touched."""
+        """A skin and its contacts; lost where none of these can be used: without contacts it would be untouched."""
         if skin.frame is None:
             return skin, []
+        lost = replace(skin, state=SkinState.LOST, stamp_ns=None, age_s=0.0, frame=None)
         try:
-            return skin, touches(message_of(skin.frame, self._kind))
+            found = touches(message_of(skin.frame, self._kind))
         except PacketError:
             self._refused[skin.name, "that cannot be read"] += 1
-            return replace(skin, state=SkinState.LOST, stamp_ns=None, age_s=0.0, frame=None), []
+            return lost, []
+        possible = [touch for touch in found if touch.can_be()]
+        if len(possible) < len(found):
+            self._refused[skin.name, "with impossible values"] += len(found) - len(possible)
+        return (skin, possible) if possible or not found else (lost, [])
 
     def _tell_changes(self, aligned: Aligned[bytes]) -> None:
         for skin in aligned.skins:
@@ -167,7 +169,7 @@ class SkinContactsNode(PollingNode):
         """Why a skin is stale or lost, by what came of it since the last report."""
         before = self._received_before[skin.name]
         if skin.silent_s is not None and skin.silent_s <= skin.stale_after_s:
-            return "its newest contacts cannot be read"
+            return "its newest contacts cannot be used"
         if counters.frames > before.frames and counters.late_s > skin.stale_after_s:
             return (
                 f"its contacts are {counters.late_s:.3g} s old when they come: its clock lies behind "
