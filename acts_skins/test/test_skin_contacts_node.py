@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 import importlib.util
+import itertools
 import math
 import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -256,6 +258,27 @@ def test_a_skin_none_of_whose_contacts_can_be_is_lost_and_not_untouched(robot: R
         # Nobody touches it.
         robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left"))
         ended_in_order(process)
+
+
+@pytest.mark.parametrize("robot", [164], indirect=True)
+def test_a_skin_that_is_lost_and_there_by_turns_is_logged_a_few_times_a_second(robot: Robot, tmp_path: Path) -> None:
+    robot.skin("left")
+    forces_n = itertools.cycle(4 * [math.nan] + 4 * [2.0])  # longer than a cycle of the node each
+    changes = 0
+
+    def press() -> None:
+        nonlocal changes
+        seen = [states(message)["left"] for message in robot.merged]
+        changes += sum(one != other for one, other in itertools.pairwise(seen))
+        robot.merged[:-1] = []
+        robot.press("left", next(forces_n))
+
+    with running(tmp_path, 164) as process:
+        begin_s = time.monotonic()
+        robot.until(lambda: changes >= 50, press)
+        lasted_s = time.monotonic() - begin_s
+        lines = [line for line in ended_in_order(process).splitlines() if "skin left: " in line]
+    assert 4 <= len(lines) <= 4 * (1 + lasted_s)
 
 
 @pytest.mark.parametrize("robot", [165], indirect=True)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
+from collections import Counter, deque
 from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any
@@ -36,6 +36,8 @@ _FRAMES_KEPT = 64
 _LARGEST_BYTES = 65536
 _LONGEST_NAME = 64
 _FOREIGN = "in another frame"
+# Of a skin, in a second.
+_CHANGES_TOLD = 4
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ class SkinContactsNode(PollingNode):
         self._publisher = self.create_publisher(SkinContacts, "skin_contacts", **published(qos.STREAM))
         self._clock = self.get_clock()
         self._there: set[str] = set()
+        self._told_s: dict[str, deque[float]] = {}
         self._refused: Counter[tuple[str, str]] = Counter()
         self._foreign_frames: dict[str, str] = {}
         self._aligned: Aligned[bytes] | None = None
@@ -157,13 +160,22 @@ class SkinContactsNode(PollingNode):
         return (skin, possible) if possible or not found else (lost, [])
 
     def _tell_changes(self, aligned: Aligned[bytes]) -> None:
+        """Log which skins are lost or there again; a few times a second, since that may change with each frame."""
+        now_s = time.monotonic()
         for skin in aligned.skins:
-            if skin.state is SkinState.LOST and skin.name in self._there:
-                self._there.remove(skin.name)
-                self.get_logger().warning(f"skin {skin.name}: lost")
-            elif skin.state is SkinState.FRESH and skin.name not in self._there:
+            is_there = skin.state is SkinState.FRESH
+            if skin.state is SkinState.STALE or is_there == (skin.name in self._there):
+                continue
+            told_s = self._told_s.setdefault(skin.name, deque(maxlen=_CHANGES_TOLD))
+            if len(told_s) == _CHANGES_TOLD and now_s - told_s[0] < 1.0:
+                continue
+            told_s.append(now_s)
+            if is_there:
                 self._there.add(skin.name)
                 self.get_logger().info(f"skin {skin.name}: there")
+            else:
+                self._there.remove(skin.name)
+                self.get_logger().warning(f"skin {skin.name}: lost")
 
     def _why(self, skin: AlignedSkin[bytes], counters: Counters) -> str:
         """Why a skin is stale or lost, by what came of it since the last report."""
