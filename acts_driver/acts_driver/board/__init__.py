@@ -10,7 +10,8 @@ equal to the parameters.
 from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, RefusedError, UnknownAnswerError
 from acts_driver.board.parameters import BOARD_PARAMETERS, BoardParameters
 from acts_driver.board.results import BoardResult, BoardResults
-from acts_driver.board.session import BoardSession, BoardStatus
+from acts_driver.board.session import BoardSession
+from acts_driver.board.status import BoardStatus
 from acts_driver.board.words import settings_in_words, version_in_words
 
 __all__ = [

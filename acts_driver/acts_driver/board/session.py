@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from acts_core.errors import ActsError, BoardError, PortError
@@ -19,6 +19,7 @@ from acts_driver.board.dialogue import BoardLink, NoAnswerError, NotHeardError, 
 from acts_driver.board.layout import BoardLayout
 from acts_driver.board.model_file import BoardModelFile
 from acts_driver.board.parameters import BoardParameters
+from acts_driver.board.status import BoardStatus
 from acts_driver.board.words import another_board, other_version, settings_in_words
 
 FIRMWARE = (0, 1)
@@ -29,28 +30,6 @@ _STOP_S = 5.0
 # A reply tells the time of the last frame, and frames may be a second apart.
 _SAME_START_S = 2.0
 _DRIFT_MAX = 1e-3
-
-
-@dataclass(frozen=True)
-class BoardStatus:
-    """What is known of the board.
-
-    Attributes
-    ----------
-    state : BoardState or None
-        What it said last; None before its first answer and when it has stopped answering.
-    is_wrong_version : bool
-        Whether its firmware is of another version, so that nothing it sends is to be used.
-    problem : str
-        Why it is not as the parameters want it, for a person; empty where it is.
-    is_silent : bool
-        Whether it was asked and did not answer.
-    """
-
-    state: BoardState | None = None
-    is_wrong_version: bool = False
-    problem: str = ""
-    is_silent: bool = False
 
 
 class BoardSession:
@@ -391,7 +370,7 @@ class BoardSession:
             self._tell("error", status.problem)
         elif status.is_silent and self.asks_for_something:
             self._tell("warning", f"{status.problem}: the parameters about the board are not in force")
-        if _lasting(before) != _lasting(status):
+        if before.lasting != status.lasting:
             self._on_change(status)
 
     def _tell(self, level: str, problem: str) -> None:
@@ -399,9 +378,3 @@ class BoardSession:
         if problem and problem != self._told:
             self._log(level, problem)
         self._told = problem
-
-
-def _lasting(status: BoardStatus) -> BoardStatus:
-    if status.state is None:
-        return status
-    return replace(status, state=replace(status.state, uptime_us=0, overruns=0, bad_commands=0))
