@@ -225,38 +225,34 @@ def test_what_cannot_be_is_dropped_and_told(robot: Robot, tmp_path: Path) -> Non
         ended_in_order(process)
 
 
+@pytest.mark.parametrize("is_readable", [False, True])
 @pytest.mark.parametrize("robot", [164], indirect=True)
-def test_a_skin_whose_contacts_cannot_be_read_is_lost_and_not_untouched(robot: Robot, tmp_path: Path) -> None:
-    """As of another machine with messages of another release."""
+def test_a_skin_of_whose_contacts_none_can_be_used_is_lost_and_not_untouched(
+    robot: Robot, tmp_path: Path, is_readable: bool
+) -> None:
+    """They cannot be read, as of another machine with messages of another release, or have impossible values."""
     robot.skin("left")
     reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
-    words = "left is lost: its newest contacts cannot be used"
+    why = "with impossible values" if is_readable else "that cannot be read"
+    wanted = ("left is lost: its newest contacts cannot be used", f"of left {why} dropped")
 
     def send() -> None:
-        robot.send("left", header_bytes(robot.peer.get_clock().now().nanoseconds, "left") + b"\xff" * 60)
+        if is_readable:
+            robot.press("left", math.nan, math.inf)
+        else:
+            robot.send("left", header_bytes(robot.peer.get_clock().now().nanoseconds, "left") + b"\xff" * 60)
 
     with running(tmp_path, 164) as process:
-        robot.until(lambda: any(words in status.message for array in reports for status in array.status), send)
+        robot.until(
+            lambda: any(all(words in one.message for words in wanted) for array in reports for one in array.status),
+            send,
+        )
         assert {states(message)["left"] for message in robot.merged} == {LOST}
         robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left", 2.0))
         assert [contact.skin for contact in robot.merged[-1].contacts] == ["left"]
-        ended_in_order(process)
-
-
-@pytest.mark.parametrize("robot", [164], indirect=True)
-def test_a_skin_none_of_whose_contacts_can_be_is_lost_and_not_untouched(robot: Robot, tmp_path: Path) -> None:
-    robot.skin("left")
-    reports = robot.listen(DiagnosticArray, "/diagnostics", 10)
-    words = "contacts of left with impossible values dropped"
-
-    def press() -> None:
-        robot.press("left", math.nan, math.inf)
-
-    with running(tmp_path, 164) as process:
-        robot.until(lambda: any(words in status.message for array in reports for status in array.status), press)
-        assert {states(message)["left"] for message in robot.merged} == {LOST}
         # Nobody touches it.
-        robot.until(lambda: states(robot.merged[-1])["left"] == FRESH, lambda: robot.press("left"))
+        robot.until(lambda: not robot.merged[-1].contacts, lambda: robot.press("left"))
+        assert states(robot.merged[-1])["left"] == FRESH
         ended_in_order(process)
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What tests call: the installed files of acts_firmware, and its core as Python functions."""
+"""What the tests call: the installed files of this package, and its core as Python functions."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ U16 = np.dtype("<u2")
 
 
 FOLDERS = ("lib/acts_firmware", "libexec/acts_firmware/test")
-"""Programs of acts_firmware, and those of its tests."""
+"""Programs of this package, and those of its tests."""
 
 
 def installed(name: str) -> Path:
-    """A file of acts_firmware in the first prefix that has it."""
+    """A file of this package in the first prefix that has it."""
     prefixes = [Path(prefix) for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(":") if prefix]
     for prefix in prefixes:
         # Those of the tests first: an earlier release installed them beside the others.
