@@ -5,7 +5,7 @@
 
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -141,17 +141,17 @@ def test_a_report_amid_a_frame_knows_all_of_its_gap_or_nothing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("decoder", "sent", "words"),
+    ("new_decoder", "sent", "words"),
     [
-        (StreamDecoder(), b"0,0,3,118,402,29312\r\n", "a board that prints lines of text speaks another protocol"),
-        (RasterDecoder(2, 2), b"0,0,3,118,402,29312\r", "does each frame end with \\n?"),
+        (StreamDecoder, b"0,0,3,118,402,29312\r\n", "a board that prints lines of text speaks another protocol"),
+        (lambda: RasterDecoder(2, 2), b"0,0,3,118,402,29312\r", "does each frame end with \\n?"),
     ],
     ids=["text", "without a line feed"],
 )
 def test_bytes_that_never_are_a_frame_are_told_as_long_as_they_come(
-    decoder: StreamDecoder | RasterDecoder, sent: bytes, words: str
+    new_decoder: Callable[[], StreamDecoder | RasterDecoder], sent: bytes, words: str
 ) -> None:
-    source = SerialSource("/dev/ttyACM0")
+    source, decoder = SerialSource("/dev/ttyACM0"), new_decoder()
     reader = Reader(source, decoder, lambda frames, arrival_ns: None)
     reader.connected = True
     report = DriverReport(source, reader, decoder, FrameStream(2, 2), (2, 2))
