@@ -325,7 +325,8 @@ class ImpactDetector:
         """What a touch was that is over, or an impact that stays on the skin."""
         is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
         course = touch.path()
-        fitted = self._footprint(touch, *course) if is_short else None
+        found = self._footprint(touch, *course) if is_short else None
+        fitted = found if found is not None and found.is_better_than_images else None
         x_m, y_m, peak_n, peak_sd_n = touch.peak_x_m, touch.peak_y_m, touch.peak_n, touch.peak_sd_n
         if fitted is not None:
             # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
@@ -335,7 +336,7 @@ class ImpactDetector:
             peak_sd_n = FORCE_SD * peak_n
         time_s, force_n, path_x_m, path_y_m = course
         force = time_s, force_n
-        onset_s, onset_sd_s = self._onset(touch, force, fitted, is_short)
+        onset_s, onset_sd_s = self._onset(touch, force, found, is_short)
         end_s = touch.last_s if stays else self._last_touched(touch, force if is_short else None, period_s)
         kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self._frame_s, self.config)
         impulse_n_s = impulse_of(force, onset_s, end_s if is_short else float(time_s[-1]))

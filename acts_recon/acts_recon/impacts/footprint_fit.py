@@ -39,6 +39,13 @@ _STEPS = 30
 _POWER = 1.5
 _VOLUME = math.pi * 2.0 ** (1.0 / _POWER) * math.gamma(1.0 + 1.0 / _POWER)
 _LEAST_TAXELS = 8
+# What presses is not round where the pressed samples are farther from the fit than this, as the mean of squared
+# residuals over their variances, or where the fit is so many times as wide as the samples are spread. Of balls it is
+# 1.7 and 1.6 at most, also where sensitivities differ by twice as much; the first is mostly 2 to 5 of an edge.
+_MOST_MISFIT, _WIDEST = 2.0, 2.0
+# Where a pressed taxel is measured in this share of the frames or more, images hold what was measured. With `random`
+# and `uniform` it is in a few only.
+_MEASURED_SHARE = 0.3
 # Less than a few measurements take. At the time of today nodes would fall together that are not a microsecond apart.
 _LEAST_S = 2e-5
 _MOST_NODES = 24
@@ -66,6 +73,9 @@ class Footprint:
         Along x and y.
     covariance : np.ndarray [shape=(2, 2), dtype=float64]
         Of the velocity [m^2/s^2].
+    is_better_than_images : bool
+        False where what pressed is not round, unless its taxels were measured so rarely that images show little of it.
+        A round footprint that passes beside an edge explains that in part, with any force and place.
     """
 
     time_s: Array
@@ -76,6 +86,7 @@ class Footprint:
     y_m: float
     velocity_m_s: Array
     covariance: Array
+    is_better_than_images: bool = True
 
     def path(self, time_s: Array) -> tuple[Array, Array]:
         """x and y of the centre at these times [m]; held before the first of its force and after the last."""
@@ -179,6 +190,9 @@ def fit_footprint(
     dx, dy = x_m - force_n @ x_m / total, y_m - force_n @ y_m / total
     state = model.start(1e3 * float(np.sqrt(force_n @ (dx * dx + dy * dy) / total)))
     state = _minimise(model, state)
+    misfit = float(np.mean(model.residuals(state)[: taxel.size][pressed] ** 2))
+    wider = float(np.exp((state - model.before)[4 + nodes :].max()))
+    measured_share = float(np.count_nonzero(pressed)) / (frames * np.unique(taxel[pressed]).size)
     jacobian = model.jacobian(state)
     clusters, cluster = np.unique(taxel, return_inverse=True)
     scores = np.zeros((clusters.size, state.size))
@@ -203,6 +217,7 @@ def fit_footprint(
         centre_y_m,
         state[2:4].copy(),
         covariance[2:4, 2:4],
+        wider <= _WIDEST and (misfit <= _MOST_MISFIT or measured_share < _MEASURED_SHARE),
     )
 
 
