@@ -18,6 +18,8 @@ from acts_ros.messages import ContactFields, SeriesFields, write_series
 from acts_ros.publishers import published
 
 _LONGEST = 1024
+# What the message holds: a stream whose numbers are no count of its frames, as of nanoseconds, misses more.
+_MOST_MISSING = 2**32 - 1
 
 
 class SeriesPublisher:
@@ -73,7 +75,7 @@ class SeriesPublisher:
         self._stamps_ns.append(stamp_ns)
         self._force_n.append(contact.force_n)
         self._delay_s.append((time.time_ns() - stamp_ns) * 1e-9)
-        self._missing.append(dropped + self._numbers.step(sequence))
+        self._missing.append(min(dropped + self._numbers.step(sequence), _MOST_MISSING))
         self._newest, self._sequence = contact, sequence
 
     def publish(self, frame_id: str) -> None:

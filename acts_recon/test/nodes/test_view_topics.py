@@ -90,3 +90,17 @@ def test_contacts_that_are_dropped_because_nobody_publishes_them_are_missing(mak
     first, second = (deserialize_message(data, ContactSeries).missing for data in told)
     assert len(first) + sum(first) == 1499
     assert len(second) + sum(second) == 2100
+
+
+def test_more_missing_contacts_than_a_message_can_tell_do_not_end_the_node(make_bench: Callable[..., Bench]) -> None:
+    """With numbers of nanoseconds a million are missing before each contact, and these were added up."""
+    bench = make_bench(43)
+    series = SeriesPublisher(bench.node)
+    told: list[bytes] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(series._publisher, "publish", told.append)
+        for number in range(10_000):
+            series.add(1_000_000 * number, 1_000_000 * number % 2**32, FoundContact())
+        series.publish("plate")
+    missing = deserialize_message(told[0], ContactSeries).missing
+    assert (missing[0], missing[1]) == (2**32 - 1, 999_999)
