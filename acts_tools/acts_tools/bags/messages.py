@@ -16,7 +16,7 @@ from sensor_msgs.msg import Image
 from acts_core.array import COUNT_MAX
 from acts_core.errors import PacketError, RecordingError
 from acts_msgs.msg import Baseline, TactileSamples
-from acts_ros.messages import message_of
+from acts_ros.messages import message_of, ns_of
 
 _Message = TypeVar("_Message")
 
@@ -62,7 +62,7 @@ def parsed(data: bytes, kind: type[_Message], where: str) -> _Message:
 def samples_with_baseline(
     bag: Any, path: Path, topic: str, beside: str | None
 ) -> Iterator[tuple[str, TactileSamples, Baseline | None]]:
-    """All samples of a topic in their order, each with words for where it is and a baseline that came before it.
+    """All samples of a topic in their order, each with words for where it is and the baseline that is newest then.
 
     Parameters
     ----------
@@ -74,21 +74,31 @@ def samples_with_baseline(
     Returns
     -------
     iterator of (str, TactileSamples, Baseline or None)
-        The baseline is None where no other has come since the samples before.
+        The baseline is None where it is that of the samples before. The first one in the bag also holds for samples
+        that came before it, from its stamp on.
 
     Raises
     ------
     RecordingError
         A message cannot be read.
     """
-    number = 0
+    # It is latched, so a recorder may hear it after samples that it was determined before.
+    waiting = None if beside is None else next(messages(bag, path, beside, Baseline), None)
+    number = heard = 0
     latest: Baseline | None = None
     for name, _, data in bag.messages([topic] if beside is None else [topic, beside]):
         if name == beside:
-            latest = parsed(data, Baseline, f"a message of {beside} in '{path}'")
+            if heard:
+                latest = parsed(data, Baseline, f"message {heard} of {beside} in '{path}'")
+            elif waiting is not None:
+                latest, waiting = waiting, None
+            heard += 1
             continue
         where = f"message {number} of {topic} in '{path}'"
-        yield where, parsed(data, TactileSamples, where), latest
+        samples = parsed(data, TactileSamples, where)
+        if waiting is not None and ns_of(waiting.header.stamp) <= ns_of(samples.header.stamp):
+            latest, waiting = waiting, None
+        yield where, samples, latest
         number, latest = number + 1, None
 
 

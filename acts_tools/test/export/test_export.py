@@ -159,16 +159,21 @@ def test_frames_that_go_back_in_time_are_left_out(tmp_path: Path) -> None:
     assert left_out == 2
 
 
-def test_images_and_contacts_are_recovered_from_samples_as_the_node_does(tmp_path: Path) -> None:
+@pytest.mark.parametrize("before", [0, 2])
+def test_images_and_contacts_are_recovered_from_samples_as_the_node_does(before: int, tmp_path: Path) -> None:
+    """Also where the recorder heard the baseline, which is latched, after the first samples."""
     noise = np.full(SIDE * SIDE, 30.0, dtype=np.float32)
     baseline = Baseline(
-        rows=SIDE, cols=SIDE, baseline=array("f", noise), noise=array("f", noise), valid=[True] * noise.size
+        header=header(-100),
+        rows=SIDE,
+        cols=SIDE,
+        baseline=array("f", noise),
+        noise=array("f", noise),
+        valid=[True] * noise.size,
     )
-    path = write_bag(
-        tmp_path / "b",
-        ("/plate/baseline", baseline),
-        *(("/plate/samples", samples(n, pressed(n) + np.uint16(30))) for n in range(3)),
-    )
+    messages: list[tuple[str, Any]] = [("/plate/samples", samples(n, pressed(n) + np.uint16(30))) for n in range(3)]
+    messages.insert(before, ("/plate/baseline", baseline))
+    path = write_bag(tmp_path / "b", *messages)
     rows, _ = rows_of(path)
     recovery = ReconstructionSettings().recovery()
     for number, row in enumerate(rows):
@@ -179,6 +184,26 @@ def test_images_and_contacts_are_recovered_from_samples_as_the_node_does(tmp_pat
         assert row.contact[3] == pytest.approx(found.force_n)
         assert row.contacts is not None
         assert row.contacts[:, 0].tolist() == [1.0]
+
+
+def test_samples_from_before_the_baseline_was_determined_stay_as_they_are(tmp_path: Path) -> None:
+    size = SIDE * SIDE
+    baseline = Baseline(
+        header=header(15),
+        rows=SIDE,
+        cols=SIDE,
+        baseline=array("f", [30.0] * size),
+        noise=array("f", [0.0] * size),
+        valid=[True] * size,
+    )
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/samples", samples(t, np.full((SIDE, SIDE), 30, np.uint16))) for t in (10, 20)),
+        ("/plate/baseline", baseline),
+        ("/plate/samples", samples(30, np.full((SIDE, SIDE), 30, np.uint16))),
+    )
+    rows, _ = rows_of(path)
+    assert [int(row.image.max()) for row in rows] == [30, 0, 0]
 
 
 def test_csv(bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

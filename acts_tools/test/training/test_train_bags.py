@@ -79,18 +79,17 @@ def test_images_in_counts(form: dict[str, Any], frames: Frames, tmp_path: Path) 
     assert np.array_equal(read, frames[:5])
 
 
-def test_raster_samples_less_the_baseline_beside_them(frames: Frames, tmp_path: Path) -> None:
+@pytest.mark.parametrize("before", [0, 2])
+def test_raster_samples_less_the_baseline_beside_them(before: int, frames: Frames, tmp_path: Path) -> None:
     raised = frames + np.uint16(30)
     baseline = Baseline(
         rows=12, cols=10, baseline=array("f", np.full(120, 30.0)), noise=array("f", np.ones(120)), valid=[True] * 120
     )
     baseline.valid[7] = False
-    bag = write_bag(
-        tmp_path / "bag",
-        ("/plate/contact", Contact()),
-        ("/plate/baseline", baseline),
-        *(("/plate/samples", raster(frame)) for frame in raised[:4]),
-    )
+    messages: list[tuple[str, Any]] = [("/plate/samples", raster(frame)) for frame in raised[:4]]
+    # As a recorder that begins later hears it, which it may after the first samples.
+    messages.insert(before, ("/plate/baseline", baseline))
+    bag = write_bag(tmp_path / "bag", ("/plate/contact", Contact()), *messages)
     read, topic = bag_frames(bag)
     assert topic == "/plate/samples"
     expected = frames[:4].copy()
