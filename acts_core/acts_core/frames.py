@@ -74,10 +74,26 @@ class SampleFrame(NamedTuple):
         # What is no frame at all is for whoever takes it to refuse.
         if m == 0 or m != len(self.counts):
             return self
-        # The first in reverse order is the last.
-        _, first = np.unique(self.indices[::-1], return_index=True)
-        kept = np.sort(m - 1 - first)
+        kept = last_samples(self.indices)
         # The samples are evenly spaced, and the last of them are kept.
         return self._replace(
             indices=self.indices[kept], counts=self.counts[kept], duration_us=self.duration_us * len(kept) // m
         )
+
+
+def last_samples(indices: NDArray[np.uint16]) -> NDArray[np.intp]:
+    """Where the last sample of each taxel is among samples, in the order of measurement.
+
+    Parameters
+    ----------
+    indices : np.ndarray [shape=(m,), dtype=uint16]
+        Taxels, in the order of measurement.
+
+    Returns
+    -------
+    np.ndarray [shape=(taxels,), dtype=intp]
+        Ascending, 0 to m - 1.
+    """
+    # The first in reverse order is the last.
+    _, first = np.unique(indices[::-1], return_index=True)
+    return np.sort(len(indices) - 1 - first)

@@ -79,6 +79,21 @@ def test_every_scheme_m_and_method_has_its_line(tmp_path: Path, capsys: pytest.C
     assert out.err == ""
 
 
+@pytest.mark.parametrize("method", ["acts", "paper", "last"])
+def test_of_taxels_that_a_frame_measures_several_times_the_last_samples_count(
+    method: str, dictionary: Dictionary
+) -> None:
+    """As in the node. The frames of 20 samples are of the two taxels once, at their ends."""
+    frames = np.zeros((200, 32, 32), dtype=np.uint16)
+    frames[:, 10, 20] = frames[:, 10, 21] = np.linspace(200, 800, 200)
+    fixed: dict[str, Any] = {"scheme": "fixed", "fixed_row": 10, "fixed_col": 20}
+    many = scored(dictionary, frames, method, sampling=SamplingConfig(**fixed, fixed_taxels=2, m=20))
+    assert many["m"] == 20
+    assert many["frames"] > 100
+    once = scored(dictionary, frames, method, sampling=SamplingConfig(**fixed, fixed_taxels=0, m=2))
+    assert many["relative_error"] == pytest.approx(once["relative_error"], abs=0.02)
+
+
 def test_reports_name_a_method_by_one_of_its_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = command(tmp_path, still(5, PRESSED), "--m", "64", "--method", "fusion", "per_frame", "acts")
     assert [result["method"] for result in results] == ["acts", "paper", "acts"]

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.sampling import MEASUREMENT_US, SamplingConfig
+from acts_core.frames import last_samples
+from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, setting, validate
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
@@ -287,8 +288,14 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
     while number == 0 or (begin_s + task.duration_s) * recording.rate_hz <= len(frames) - 1:
         indices, counts = sampler.frame(frames, begin_s * recording.rate_hz, step)
         end_s = begin_s + task.duration_s
+        measured_s = task.duration_s
+        if SCHEMES[task.sampling.scheme].repeats:
+            # As the node does, see `SampleFrame.once`.
+            kept = last_samples(indices)
+            measured_s *= len(kept) / len(indices)
+            indices, counts = indices[kept], counts[kept]
         began = time.perf_counter()
-        image = method.step(indices, counts, end_s, task.duration_s)
+        image = method.step(indices, counts, end_s, measured_s)
         spent_us = 1e6 * (time.perf_counter() - began)
         interpolate(flat, end_s * recording.rate_hz, truth)
         touch = float(task.touch_counts)
