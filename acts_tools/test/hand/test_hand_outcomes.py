@@ -15,6 +15,7 @@ import pytest
 
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState
+from acts_sim.hand import HandWorldConfig
 from acts_tools.evaluate.hand.scenario import Run
 from acts_tools.evaluate.hand.scenarios import SCENARIOS
 
@@ -65,3 +66,21 @@ def test_how_far_off_a_small_sphere_is_is_told_after_the_pull() -> None:
     assert outcome.kept
     assert outcome.details["before_pull_mm"] == pytest.approx(3.0)
     assert outcome.offset_mm == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_every_seed_has_its_hand(name: str) -> None:
+    """Commands take larger seeds than the parameter of a node."""
+
+    class MadeError(Exception):
+        pass
+
+    def made(world: HandWorldConfig, _: Any) -> Any:
+        worlds.append(world)
+        raise MadeError
+
+    worlds: list[HandWorldConfig] = []
+    for seed in (5, 2**31 + 5, 2**63 - 1):
+        with pytest.raises(MadeError):
+            SCENARIOS[name](Run(seed, rig=made))
+    assert [world.seed for world in worlds] == [5, 5, 2**31 - 1]

@@ -24,7 +24,7 @@ _LOST_FOR_S = 0.1
 def run(one: Run) -> Outcome:
     """Three phalanges must stay in contact, and no region may exceed the force limit."""
     draw = one.draw()
-    world = HandWorldConfig(seed=one.seed, pose="thumb_up", object="other_hand", object_held=True)
+    world = HandWorldConfig(seed=one.world_seed, pose="thumb_up", object="other_hand", object_held=True)
     reflexes = ("slip", "hand_to_hand") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes, grip_force_n=0.3))
     outcome = Outcome(kept=False)

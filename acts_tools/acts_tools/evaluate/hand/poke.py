@@ -58,7 +58,11 @@ def blunt(one: Run) -> Outcome:
 def _poke(one: Run, radius_m: float) -> Outcome:
     draw = np.random.default_rng([one.seed, 11])
     world = HandWorldConfig(
-        seed=one.seed, pose="palm_up", object="cylinder", object_size_m=draw.uniform(0.022, 0.028), object_held=True
+        seed=one.world_seed,
+        pose="palm_up",
+        object="cylinder",
+        object_size_m=draw.uniform(0.022, 0.028),
+        object_held=True,
     )
     reflexes = ("sharp", "slip") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes))

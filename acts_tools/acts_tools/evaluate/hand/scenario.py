@@ -40,6 +40,11 @@ class Run:
     settings: Mapping[str, Any] = field(default_factory=dict)
     rig: Callable[[HandWorldConfig, RigOptions], Any] = HandRig
 
+    @property
+    def world_seed(self) -> int:
+        """Seed of the simulated hand and its object, which a parameter of a node must hold."""
+        return self.seed % 2**31
+
     def draw(self) -> np.random.Generator:
         """Random generator of the run's variation."""
         return np.random.default_rng([self.seed, 7])

@@ -118,7 +118,7 @@ def _grasped(one: Run) -> tuple[Any, Outcome]:
     """The hand with a cylinder in it that nothing else holds any more; None where it was not grasped."""
     draw = one.draw()
     world = HandWorldConfig(
-        seed=one.seed,
+        seed=one.world_seed,
         pose="thumb_up",
         object="cylinder",
         object_held=True,

@@ -43,7 +43,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
     # To the side or towards the fingers; towards the wrist the thumb is in the way.
     angle = draw.uniform(-math.pi / 2, math.pi / 2)
     world = HandWorldConfig(
-        seed=one.seed,
+        seed=one.world_seed,
         pose="palm_up",
         object=name,
         object_size_m=radius_m,
