@@ -18,6 +18,7 @@ from acts_sim.shared import TimedRingWriter
 from acts_tools.bench.rigs.processes import virtual_board
 
 _STEP_S = 0.01
+_STEPS_MAX = 3000
 _LEAD_S = 0.2
 _AFTER_S = 3600.0
 _WIDTH_TAXELS = 2.5
@@ -43,12 +44,15 @@ class SimulatedSkin:
     @contextmanager
     def rolled(self, rows: int, cols: int, seconds: float) -> Iterator[None]:
         """Roll over the whole skin for `seconds`, once along the columns and once along the rows."""
-        fields = roller_fields(rows, cols, max(round((seconds - 2 * _LEAD_S) / _STEP_S), 10))
+        # All of it is kept in memory, so what lasts long has longer steps; 3000 are far below a taxel each.
+        steps = max(round((seconds - 2 * _LEAD_S) / _STEP_S), 10)
+        step_s = _STEP_S * max(1.0, steps / _STEPS_MAX)
+        fields = roller_fields(rows, cols, min(steps, _STEPS_MAX))
         begin_ns = time.monotonic_ns() + int(_LEAD_S * 1e9)
         with TimedRingWriter(self.ring, rows * cols, slots=len(fields) + 2) as writer:
             # Written in advance: the board interpolates, and no process needs to keep up with it.
             for step, field in enumerate(fields):
-                writer.write(begin_ns + int(step * _STEP_S * 1e9), field.ravel())
+                writer.write(begin_ns + int(step * step_s * 1e9), field.ravel())
             # Untouched afterwards: a board makes no frames of a ring that ends.
             writer.write(begin_ns + int((seconds + _AFTER_S) * 1e9), fields[-1].ravel())
             yield

@@ -10,14 +10,18 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import matplotlib.image
+import numpy as np
 import pytest
 
+from acts_sim.shared import TimedRingReader
 from acts_tools.bench.rigs.processes import virtual_board
 from acts_tools.cli import main
 from acts_tools.selftest.session import BoardReader
+from acts_tools.selftest.simulation import SimulatedSkin
 
 pytestmark = pytest.mark.slow
 
@@ -129,3 +133,18 @@ def test_a_disk_that_is_full_is_told_with_the_file(tmp_path: Path, capsys: pytes
     words = ["--sim", "--no-touch", "--untouched-s", "1", "--rows", "8", "--cols", "5"]
     assert main(["selftest", *words, "--json", "/dev/full", "--picture", str(tmp_path / "test.png")]) == 1
     assert "error: /dev/full: cannot be written (No space left on device)\n" in capsys.readouterr().err
+
+
+def test_a_simulated_hand_that_rolls_for_an_hour_fits_into_memory(tmp_path: Path) -> None:
+    skin = SimulatedSkin("none", tmp_path / "field.ring")
+    begin_ns = time.monotonic_ns()
+    with skin.rolled(8, 8, 3600.0):
+        assert skin.ring.stat().st_size < 5_000_000
+        reader = TimedRingReader(skin.ring, 64)
+        along_columns, along_rows = (
+            [reader.sample(begin_ns + int(at_s * 1e9)) for at_s in np.linspace(from_s, to_s, 500)]
+            for from_s, to_s in ((1.0, 1800.0), (1801.0, 3599.0))
+        )
+    for half in (along_columns, along_rows):
+        pressed = np.max([field for field in half if field is not None], axis=0)
+        assert pressed.min() > 100, "every taxel is rolled over"
