@@ -18,7 +18,8 @@ from acts_tools.arguments import refuse_unused
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LAYOUT = "square"
 _LEROBOT_HZ = 30.0
-_RATE_MAX_HZ = 10_000.0
+# The least is that of what reads a `rate_hz` of a file.
+_RATE_MIN_HZ, _RATE_MAX_HZ = 1e-3, 10_000.0
 
 _EPILOG = """\
 examples:
@@ -120,8 +121,11 @@ def _rate_hz(arguments: argparse.Namespace) -> float:
     """Rows a second; 0: one a frame."""
     kind = arguments.kind
     rate_hz = _LEROBOT_HZ if arguments.rate is None and kind == "lerobot" else arguments.rate or 0.0
-    if not 0.0 <= rate_hz <= _RATE_MAX_HZ or (kind == "lerobot" and (rate_hz < 1.0 or rate_hz != int(rate_hz))):
-        allowed = f"a whole number from 1 to {_RATE_MAX_HZ:.0f}" if kind == "lerobot" else f"0 to {_RATE_MAX_HZ:.0f}"
+    is_allowed = rate_hz == 0.0 or _RATE_MIN_HZ <= rate_hz <= _RATE_MAX_HZ
+    if not is_allowed or (kind == "lerobot" and (rate_hz < 1.0 or rate_hz != int(rate_hz))):
+        allowed = f"0, or {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:.0f}"
+        if kind == "lerobot":
+            allowed = f"a whole number from 1 to {_RATE_MAX_HZ:.0f}"
         raise RecordingError(f"--rate {rate_hz:g}: for {kind} allowed is {allowed}")
     return float(rate_hz)
 

@@ -35,6 +35,8 @@ EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlin
         ("evaluate hand --scenario slip --rate-hz 5", "a number from 10 to 500"),
         ("evaluate hand --scenario slip --seed -1", "a whole number from 0 to 9223372036854775807"),
         ("evaluate hand --scenario slip --seeds 0", "a whole number from 1 to 10000"),
+        ("evaluate slip-sampled --hold-s 1e308", "a number from 0 to 1e+06"),
+        ("evaluate wearables --minutes 1e308", "a number from 0 to 1e+06"),
         ("listen /cop --every 0", "0.05 or more"),
         ("listen /cop --every inf", "0.05 or more"),
         ("listen /cop --every nan", "0.05 or more"),

@@ -259,7 +259,8 @@ def test_without_pyarrow_it_is_said_how_to_install_it(
     [
         (["--skin", "foot"], "has no skin /foot; it has /plate"),
         (["--joints", "/arm"], "no joint states on /arm; it has /joint_states"),
-        (["--rate", "-1"], "--rate -1: for npz allowed is 0 to"),
+        (["--rate", "-1"], "--rate -1: for npz allowed is 0, or 0.001 to 10000"),
+        (["--rate", "1e-300"], "--rate 1e-300: for npz allowed is 0, or 0.001 to"),
         (["--rate", "nan"], "--rate nan"),
         (["second"], "2 bags: of several only a LeRobot dataset"),
     ],

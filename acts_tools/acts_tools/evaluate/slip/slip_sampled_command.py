@@ -60,7 +60,7 @@ def add_parser(commands: Any) -> None:
         help="seeds for each of 3 kinds of contact (default: %(default)s)",
     )
     parser.add_argument(
-        "--hold-s", type=real(0.0), default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
+        "--hold-s", type=real(0.0, 1e6), default=60.0, metavar="T", help="time of the hold (default: %(default)s)"
     )
     parser.add_argument(
         "--set",

@@ -49,7 +49,11 @@ def add_parser(commands: Any) -> None:
         "--untouched", nargs="*", choices=SKINS, default=list(SKINS), help="skins (default: all; without names: none)"
     )
     parser.add_argument(
-        "--minutes", type=real(0.0), default=10.0, metavar="T", help="each skin is left alone (default: %(default)s)"
+        "--minutes",
+        type=real(0.0, 1e6),
+        default=10.0,
+        metavar="T",
+        help="each skin is left alone (default: %(default)s)",
     )
     parser.add_argument("--m", type=simulated_taxels, default=64, help="taxels per frame (default: %(default)s)")
     add_scene_arguments(parser, 25, "of each scene")
