@@ -85,6 +85,8 @@ def run(arguments: argparse.Namespace) -> int:
     published = published_data(arguments.paper_data)
     out = arguments.out or (_OUT_FAST if arguments.fast else _OUT)
     make_folder(out, "--out")
+    if arguments.json is not None and arguments.json.resolve() in _own_files(out):
+        raise RecordingError(f"--json {arguments.json}: is where a figure keeps its own numbers; give another name")
     one = Run(out, arguments.seed, arguments.fast, arguments.again)
     results = report.Results(arguments.json, one.settings)
     if published is None and any(figure.has_published for figure in figures):
@@ -98,6 +100,11 @@ def run(arguments: argparse.Namespace) -> int:
             if published is not None and figure.has_published and not entry["published"]:
                 code = 1
     return code
+
+
+def _own_files(out: Path) -> set[Path]:
+    """The JSON files of all figures in a folder."""
+    return {(out / f"{figure.file_name}.json").resolve() for figure in FIGURES.values()}
 
 
 def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str, Any]:

@@ -170,6 +170,20 @@ def test_a_folder_of_nobody_is_refused(
     assert capsys.readouterr().err.startswith("error: ~no_such_person/data: Could not determine home directory")
 
 
+def test_the_json_file_of_all_figures_is_not_that_of_one(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = folder / "fig_4e.json"
+    words = ["figures", "4E", "--fast", "--out", str(folder)]
+    assert main(words) == 0
+    before = path.read_bytes()
+    monkeypatch.chdir(folder)
+    assert main([*words, "--json", path.name]) == 1
+    assert "--json fig_4e.json: is where a figure keeps its own numbers; give another name" in capsys.readouterr().err
+    assert path.read_bytes() == before
+    assert main(words) == 0
+
+
 def test_a_figure_that_is_named_twice_is_drawn_once() -> None:
     assert [figure.name for figure in figures_named(["6b", "6A-C", "6B"])] == ["6B", "6A", "6C"]
 
