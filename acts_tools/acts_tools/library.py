@@ -139,6 +139,8 @@ def _labelled(path: Path, *, is_named: bool) -> FramesFile:
     recorded = load_frames(path, labels=not is_named)
     if is_named:
         name = re.sub(r"_\d+$", "", path.stem)
+        if not name:
+            raise RecordingError(f"{path}: its name has no object before the number; allowed are cup.npz, cup_1.npz")
         return replace(recorded, label=(name,) * recorded.start.size)
     if not recorded.label:
         raise RecordingError(

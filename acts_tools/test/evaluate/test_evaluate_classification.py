@@ -243,6 +243,13 @@ def test_a_library_of_files_that_are_named_after_their_objects(tmp_path: Path) -
         make_library("-o", made, "--files", *paths)
 
 
+def test_a_file_that_is_named_after_no_object_is_refused_by_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "_1.npz"
+    np.savez(path, image=np.full((1, 8, 8), 300, dtype=np.uint16))
+    with pytest.raises(RecordingError, match=r"_1.npz: its name has no object before the number; allowed are cup.npz"):
+        make_library("-o", tmp_path / "objects.npz", "--files", path)
+
+
 def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_library(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
