@@ -120,6 +120,21 @@ def test_a_hand_is_drawn_as_a_right_hand_seen_from_its_palm() -> None:
     assert boxes["middle_proximal"].y_m < boxes["palm"].y_m
 
 
+@pytest.mark.parametrize("thumb_rows", [0, 2, 8])
+def test_a_palm_without_fingers_is_drawn_whole(tmp_path: Path, thumb_rows: int) -> None:
+    """It began above the upper edge of the picture, which had no place for as much of it."""
+    file = tmp_path / "palm.yaml"
+    pose = "link: palm, pose: {position_m: [0, 0, 0]}"
+    patches = [f"palm: {{wires: {{down: rows 0 to 7, across: cols}}, {pose}}}"]
+    if thumb_rows:
+        wires = f"wires: {{down: rows 8 to {7 + thumb_rows}, across: cols}}"
+        patches.append(f"thumb_distal: {{at: [8, 0], {wires}, {pose}}}")
+    file.write_text("\n  ".join([f"matrix: [{8 + thumb_rows}, 8]\npatches:", *patches]) + "\n")
+    boxes = arrangement(layout(str(file)))
+    assert min(box.x_m for box in boxes) == 0.0
+    assert min(box.y_m for box in boxes) == pytest.approx(0.0)
+
+
 @pytest.mark.parametrize("name", ["secret.txt", "secret.yaml"])
 def test_of_a_file_that_is_no_layout_nothing_is_told(tmp_path: Path, name: str) -> None:
     file = tmp_path / name

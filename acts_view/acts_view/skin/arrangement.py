@@ -65,7 +65,7 @@ def _hand(patches: tuple[SkinPatch, ...]) -> list[Box] | None:
     fingers = [finger for finger in _FINGERS if columns[finger]]
     heights_m = {finger: _height_m(columns[finger], sizes) for finger in columns}
     thumb_m = heights_m[_THUMB] - _THUMB_DOWN_M
-    palm_y_m = max([thumb_m, *(heights_m[finger] + _GAP_M for finger in fingers)])
+    palm_y_m = max([0.0, thumb_m, *(heights_m[finger] + _GAP_M for finger in fingers)])
     boxes: dict[str, Box] = {}
     x_m = 0.0
     for finger in fingers:
