@@ -136,3 +136,43 @@ def test_a_part_of_a_plot_shows_all_that_is_known_of_it(
         assert -0.016 < after_s <= 0
         assert -0.016 < before_s <= 0
         assert is_at_edge
+
+
+# Of plots of their own, ten seconds of which are drawn; then 0.4 s more come, and from 4 to 3 s before the newest
+# that is drawn are chosen with the mouse. From when to when is shown, counted from what was the newest then.
+CHOOSE = """async () => {
+  const [{ History }, { Plots }] = await Promise.all([import("/skin/history.js"), import("/skin/plots.js")]);
+  const element = document.body.appendChild(document.createElement("div"));
+  const history = new History();
+  const plots = new Plots(element, history, () => plots.hold(true));
+  const begin_s = 1.7e9;
+  let count = 0;
+  const take = (intervals) => {
+    const time_s = (at) => 0.008 * (count + at / 7);
+    const data = Float32Array.from({ length: 7 * intervals }, (_, at) => (at % 7 ? 1 : time_s(at)));
+    history.take({ life: 0, base_s: begin_s, arrays: { history: { data } } });
+    count += intervals;
+  };
+  take(1250);
+  plots.draw(true);
+  await new Promise(requestAnimationFrame);
+  const newest_s = history.newest_s;
+  take(50);
+  const { plot } = plots.plots[0];
+  const [left, right] = [-4, -3].map((time_s) => plot.valToPos(time_s, "x"));
+  plot.setSelect({ left, width: right - left, top: 0, height: 10 });
+  const times = plots.shown().map(([time_s]) => time_s - newest_s);
+  plots.destroy();
+  element.remove();
+  return [times[0], times[times.length - 1]];
+}"""
+
+
+def test_the_part_that_is_shown_is_the_one_that_was_seen_and_chosen(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    """What had come since the plot was drawn moved the part: by up to a tenth of a second, more than a short peak."""
+    page = open_page(play())
+    first_s, last_s = page.evaluate(CHOOSE)
+    assert first_s == pytest.approx(-4.0, abs=0.009)
+    assert last_s == pytest.approx(-3.0, abs=0.009)

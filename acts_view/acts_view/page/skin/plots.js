@@ -32,6 +32,7 @@ export class Plots {
     this.held = null;
     this.last_ms = 0;
     this.length_s = 0;
+    this.drawn_s = 0; // the newest of what is drawn
     this.part = null; // of the window, from and to [s], where one is zoomed
     this.onZoom = onZoom;
     this.plots = KINDS.map((kind) => {
@@ -41,7 +42,7 @@ export class Plots {
       caption.textContent = kind.unit ? `${kind.title} [${kind.unit}]` : kind.title;
       figure.append(caption);
       element.append(figure);
-      const plot = new uPlot(options(kind, (from_s, to_s) => this.#show(from_s, to_s), () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
+      const plot = new uPlot(options(kind, (from_s, to_s) => this.#choose(from_s, to_s), () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
       return { kind, plot, figure };
     });
     new ResizeObserver(() => this.#resize()).observe(element);
@@ -89,6 +90,7 @@ export class Plots {
     // Another window was asked for: all of it, since what was zoomed may not be in it.
     if (length_s !== this.length_s) this.part = null;
     this.length_s = length_s;
+    this.drawn_s = history.newest_s;
     const [from_s, to_s] = this.#shown;
     for (const { kind, plot } of this.plots) {
       // Of a part more than of the whole: each of its pixels is a shorter time.
@@ -118,6 +120,15 @@ export class Plots {
     }
     const to_s = Math.min(Math.max(end_s, length_s - window_s), 0);
     this.#show(to_s - length_s, to_s);
+  }
+
+  /** Show a part of what is drawn: since then more may have come. */
+  #choose(from_s, to_s) {
+    const { drawn_s } = this;
+    this.onZoom();
+    // Less where the history began anew.
+    const since_s = Math.max((this.held ?? this.history).newest_s - drawn_s, 0);
+    this.#show(from_s - since_s, to_s - since_s);
   }
 
   #show(from_s, to_s) {
