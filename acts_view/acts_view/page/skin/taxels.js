@@ -80,7 +80,8 @@ export class Taxels {
   #scale(image) {
     const values = this.valuesOf();
     this.unit = values === COUNTS ? "counts" : "N";
-    if (settings.scale === "adaptive" && image) this.top = values[Math.round(this.most)];
-    else this.top = values[values === COUNTS ? COUNT_MAX : FIXED_TOP_COUNTS];
+    const fixed = values[values === COUNTS ? COUNT_MAX : FIXED_TOP_COUNTS];
+    // A measured response may say 0 N up to any number of counts: then there is nothing to adapt to.
+    this.top = (settings.scale === "adaptive" && image && values[Math.round(this.most)]) || fixed;
   }
 }
