@@ -132,6 +132,8 @@ class Playback:
                 if seek_us is not None:
                     # Told from now on: to read what is there may take a while.
                     self._position_us = seek_us
+                    # Of where it was before.
+                    self._problem = ""
             try:
                 if seek_us is not None:
                     self._jump(seek_us)

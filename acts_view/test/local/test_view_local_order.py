@@ -16,6 +16,7 @@ from test_view_codec import decode
 from view_recorded import DEADLINE_S, Counted, Shown
 from waiting import wait_for
 
+from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame, Scheme
 from acts_view.local import show as show_module
 from acts_view.local.playback import Playback
@@ -130,5 +131,35 @@ def test_time_passes_in_a_gap_of_a_recording_and_goes_on_from_there_after_a_hold
         playback.seek(59.8)
         wait_for(lambda: not playback.state.is_playing)
         assert playback.state.position_s == pytest.approx(60.0)
+    finally:
+        playback.stop()
+
+
+class Damaged(Counted):
+    """What is behind half of it cannot be read."""
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        for one in super().frames(from_us):
+            if one.sequence >= 500:
+                raise RecordingError("message 500 is damaged")
+            yield one
+
+
+def test_what_is_before_the_damage_of_a_recording_is_shown_without_an_error() -> None:
+    """The error stayed for good, also while the recording was played again."""
+    numbers: list[int] = []
+    playback = Playback(Damaged(), lambda frames: numbers.extend(one.sequence for one in frames), lambda: None)
+    playback.start()
+    try:
+        wait_for(lambda: not playback.state.is_playing)
+        assert playback.state.problem == "message 500 is damaged"
+        playback.seek(0.05)
+        wait_for(lambda: numbers[-1] == 50)
+        assert playback.state.problem == ""
+        playback.seek(1.2)
+        wait_for(lambda: bool(playback.state.problem))
+        playback.play()
+        wait_for(lambda: not playback.state.is_playing)
+        assert playback.state.problem == "message 500 is damaged"
     finally:
         playback.stop()
