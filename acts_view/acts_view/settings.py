@@ -20,8 +20,8 @@ class ViewSettings:
 
     skins: str = setting(
         "",
-        "namespaces of the skins to show, with commas between, within the node's own unless / is before them; empty: "
-        "all that are found",
+        "namespaces of the skins to show, with commas between, within the node's own unless / is before them; / is the "
+        "root; empty: all that are found",
     )
     host: str = setting("127.0.0.1", "address to listen on; another than this machine's own gets a token, see the log")
     port: int = setting(8080, "port to listen on; 0: any that is free, see the log", minimum=0, maximum=65535)
@@ -50,7 +50,7 @@ class ViewSettings:
         if not self.record_dir:
             raise SettingsError("record_dir is empty: needed is a folder, such as recordings")
         path_of(self.record_dir, error=SettingsError)
-        for name in self.namespaces("/"):
+        for name in filter(None, self.namespaces("/")):
             if not is_full_name(name):
                 raise SettingsError(
                     f"skins: {name[1:]!r} is no namespace: allowed are {ALLOWED}, parts with / between, and a comma "
@@ -63,7 +63,7 @@ class ViewSettings:
         return path_of(self.record_dir, error=SettingsError)
 
     def namespaces(self, own: str) -> tuple[str, ...]:
-        """The skins that are given, each with a slash before; empty: all that are found.
+        """The skins that are given, each with a slash before, of the root empty; no skin: all that are found.
 
         Parameters
         ----------
@@ -71,5 +71,5 @@ class ViewSettings:
             Namespace of the node, in which those are that are given without a slash before.
         """
         given = (name.strip() for name in self.skins.split(","))
-        whole = (name if name.startswith("/") else f"{own}/{name}" for name in given if name.strip("/"))
-        return tuple(dict.fromkeys(f"/{name.strip('/')}" for name in whole))
+        whole = (name if name.startswith("/") else f"{own}/{name}" for name in given if name)
+        return tuple(dict.fromkeys(f"/{name.strip('/')}".rstrip("/") for name in whole))

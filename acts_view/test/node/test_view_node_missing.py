@@ -33,6 +33,13 @@ def bench_of_a_robot() -> Iterator[Bench]:
     made.close()
 
 
+@pytest.fixture
+def bench_of_the_root() -> Iterator[Bench]:
+    made = Bench(DOMAIN_ID, skins="/")
+    yield made
+    made.close()
+
+
 def missing_of(bench: Bench) -> dict[str, tuple[int, str]]:
     """Level and message of each skin that is told missing."""
     told = {one["name"]: (one["level"], one["message"]) for one in bench.diagnostics}
@@ -63,3 +70,16 @@ def test_a_skin_of_a_robot_is_within_the_namespace_that_a_launch_file_has_pushed
         bench.until(lambda: missing_of(bench).keys() == {"/foot"}, client, lambda: bench.press(2.0))
         bench.until(lambda: "frame" in bench.headers and bench.is_pressed_with(2.0), client, lambda: bench.press(2.0))
         assert bench.headers["frame"]["skin"] == "/robot/hand"
+
+
+def test_of_the_skin_in_the_root_namespace_no_other_is_shown(bench_of_the_root: Bench) -> None:
+    """It could not be asked for: all skins were shown."""
+    bench = bench_of_the_root
+    player = Node("player", context=bench.skin.context)
+    with bench.connect() as client:
+        bench.until(lambda: "/" in missing_of(bench), client, lambda: bench.press(1.0))
+        assert bench.headers["status"]["skins"] == [""]
+        player.create_publisher(Image, "/image_raw", qos.STREAM)
+        bench.until(lambda: missing_of(bench) == {}, client, lambda: bench.press(1.0))
+        assert bench.headers["status"]["skins"] == [""]
+    player.destroy_node()
