@@ -78,6 +78,8 @@ class ViewNode(PollingNode):
         # The executor's thread changes what is subscribed to, the server's takes what has come.
         self._lock = threading.Lock()
         self._asked: dict[str, tuple[Client, Future[Any] | None]] = {}
+        # Skins of which somebody may have begun the reconstruction anew since it was asked last.
+        self._begun_anew: set[str] = set()
         # As other names of a node: a launch file may have pushed a namespace around the skins and around this one.
         self._wanted = settings.namespaces(self.get_namespace())
         self._names = list(self._wanted)
@@ -172,6 +174,8 @@ class ViewNode(PollingNode):
                 made = SkinTopics(self, name, with_outlines=self._settings.outlines)
                 with self._lock:
                     self._skins[name] = made
+                # Nobody has looked while no page was open.
+                self._begun_anew.add(name)
             self._ask_shape(name)
         told = {"note": _ONLY_SHOWS} if self._control is None else self._control.look()
         diagnostics = [*self._mixtures(), *self._missing(), *self._statuses()]
@@ -201,7 +205,9 @@ class ViewNode(PollingNode):
         if asked is not None and not asked.done():
             # Kept, questions that are never answered would add up.
             client.remove_pending_request(asked)
-        if client.service_is_ready():
+        if not client.service_is_ready():
+            self._begun_anew.add(name)
+        else:
             try:
                 future = ask(client, GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
             except NotAskedError:
@@ -217,7 +223,8 @@ class ViewNode(PollingNode):
         if None in values.values():
             return
         try:
-            self._server.show_shape(name, SkinShape(**values))
+            self._server.show_shape(name, SkinShape(**values), is_begun_anew=name in self._begun_anew)
+            self._begun_anew.discard(name)
         except ArrayError as error:
             self.get_logger().warning(f"{name}: {error}", throttle_duration_sec=10.0, throttle_time_source_type=STEADY)
 

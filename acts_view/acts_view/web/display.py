@@ -32,14 +32,16 @@ class _Skin:
         self._is_told = False
         self._describe(SkinShape())
 
-    def describe(self, shape: SkinShape) -> None:
+    def describe(self, shape: SkinShape, *, is_begun_anew: bool) -> None:
         """Take what the skin is like."""
-        self._describe(shape, is_told=True)
+        self._describe(shape, is_told=True, is_begun_anew=is_begun_anew)
 
-    def _describe(self, shape: SkinShape, *, is_told: bool = False) -> None:
-        if (shape, is_told) != (self.shape, self._is_told):
+    def _describe(self, shape: SkinShape, *, is_told: bool = False, is_begun_anew: bool = False) -> None:
+        if is_begun_anew or (shape, is_told) != (self.shape, self._is_told):
             self.shape, self._is_told = shape, is_told
-            self.description = encode({**describe_skin(self._name, shape), "told": is_told})
+            description = encode({**describe_skin(self._name, shape), "told": is_told})
+            # What is as it was need not be sent again.
+            self.description = self.description if description == self.description else description
 
     def take(self, frame: Frame, samples: Sequence[Sample]) -> None:
         """Take the newest state, and what has come since the last one."""
@@ -82,9 +84,9 @@ class Display:
         """What comes of a skin does not follow on what has come."""
         self._skin(name).history.forget()
 
-    def show_shape(self, name: str, shape: SkinShape) -> None:
-        """Take what a skin is like."""
-        self._skin(name).describe(shape)
+    def show_shape(self, name: str, shape: SkinShape, *, is_begun_anew: bool = False) -> None:
+        """Take what a skin is like; one that is begun anew may have other files than before, of the same names."""
+        self._skin(name).describe(shape, is_begun_anew=is_begun_anew)
 
     def show_status(self, status: dict[str, Any]) -> None:
         """Take what is said of everything together, as JSON can say it; often enough, it tells a client we live."""

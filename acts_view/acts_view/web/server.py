@@ -168,9 +168,9 @@ class ViewServer:
         """As `Display.forget`, from any thread."""
         self._show(self._display.forget, name)
 
-    def show_shape(self, name: str, shape: SkinShape) -> None:
+    def show_shape(self, name: str, shape: SkinShape, *, is_begun_anew: bool = False) -> None:
         """As `Display.show_shape`, from any thread."""
-        self._show(self._display.show_shape, name, shape)
+        self._show(partial(self._display.show_shape, is_begun_anew=is_begun_anew), name, shape)
 
     def show_status(self, status: dict[str, Any]) -> None:
         """As `Display.show_status`, from any thread."""

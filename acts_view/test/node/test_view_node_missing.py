@@ -6,11 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import Image
-from view_node_bench import Bench
+from spinning import spinning_node
+from view_node_bench import SHAPE, Bench, header_where
+from waiting import wait_for
 
 from acts_ros import qos
 
@@ -83,3 +86,29 @@ def test_of_the_skin_in_the_root_namespace_no_other_is_shown(bench_of_the_root: 
         bench.until(lambda: missing_of(bench) == {}, client, lambda: bench.press(1.0))
         assert bench.headers["status"]["skins"] == [""]
     player.destroy_node()
+
+
+PATCH = "{at: [%s, 0], wires: {down: rows %s, across: cols}}"
+
+
+def test_a_skin_that_is_launched_again_with_a_changed_layout_file_is_drawn_as_that_says(
+    bench: Bench, tmp_path: Path
+) -> None:
+    """It was drawn as the file had said before, until the page's node was started again."""
+    file = tmp_path / "sole.yaml"
+
+    def furnish(node: Node) -> None:
+        for name, value in {**SHAPE, "layout": str(file), "rows": 8, "cols": 8}.items():
+            node.declare_parameter(name, value)
+
+    def is_unasked() -> bool:
+        return "/foot" in bench.view._begun_anew
+
+    with bench.connect() as client:
+        for patches in ({"whole": (0, "0 to 7")}, {"heel": (0, "0 to 3"), "toes": (4, "4 to 7")}):
+            wait_for(is_unasked)
+            lines = [f"  {name}: {PATCH % one}" for name, one in patches.items()]
+            file.write_text("\n".join(["matrix: [8, 8]", "patches:", *lines, ""]))
+            with spinning_node("reconstruction", "/foot", DOMAIN_ID, furnish):
+                told = header_where(client, lambda one: one["type"] == "skin" and one["skin"] == "/foot")
+                assert [patch["name"] for patch in told["patches"]] == list(patches)
