@@ -35,7 +35,8 @@ def main() -> None:
 
     recovery: Recovery | None = None
     pressed, told = 0, -50
-    for frame in recording.frames():
+    # Counted here: the board's own numbers begin anew where it was restarted.
+    for number, frame in enumerate(recording.frames()):
         frame = frame.once()  # where a board measured some taxels again and again, the last of each
         if recovery is None:
             skin = SkinSetup(ArrayGeometry(frame.rows, frame.cols), touch_counts=60)
@@ -44,8 +45,8 @@ def main() -> None:
         contact = recovery.step(frame.indices, frame.counts, end_s, duration_s)
         # recovery.image and recovery.sigma are (rows, cols) float32 [counts]; overwritten by the next step.
         pressed += contact.in_contact
-        if contact.in_contact and frame.sequence >= told + 50:
-            told = frame.sequence
+        if contact.in_contact and number >= told + 50:
+            told = number
             x_mm, y_mm = 1000 * contact.x_m, 1000 * contact.y_m
             print(f"{end_s:7.3f} s: x {x_mm:6.2f} mm, y {y_mm:6.2f} mm, {contact.force_n:5.2f} N, ", end="")
             print(f"x uncertain by {1000 * contact.x_sd_m:.2f} mm")

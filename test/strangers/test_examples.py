@@ -78,6 +78,21 @@ def test_a_recording_in_which_taxels_come_twice_is_fused(run: Run, tmp_path: Pat
     assert re.match(r" +0\.050 s: x ", run("fuse_recording.py", str(tmp_path / "fixed.npz")).splitlines()[1])
 
 
+def test_contacts_are_told_on_where_the_board_was_restarted(run: Run, tmp_path: Path) -> None:
+    indices, pressed = np.tile(np.arange(64), (300, 1)), np.isin(np.arange(64), (27, 28))
+    np.savez(
+        tmp_path / "restarted.npz",
+        indices=indices,
+        counts=np.where(pressed, 500, 0) * np.ones((300, 1), dtype=np.int64),
+        sequence=np.concatenate((np.arange(100_000, 100_100), np.arange(200))),
+        rate_hz=1000.0,
+        rows=8,
+        cols=8,
+    )
+    times = re.findall(r"^ +(\d\.\d{3}) s: x ", run("fuse_recording.py", str(tmp_path / "restarted.npz")), re.MULTILINE)
+    assert times == ["0.000", "0.050", "0.100", "0.150", "0.200", "0.250"]
+
+
 def test_a_recording_of_volts_is_told_to_hold_no_contact(run: Run, tmp_path: Path) -> None:
     np.savez(tmp_path / "volts.npz", frames=np.full((3, 8, 8), 3.3), rate_hz=100.0)
     assert run("fuse_recording.py", str(tmp_path / "volts.npz")).startswith("no contact: none of the taxels measured")
