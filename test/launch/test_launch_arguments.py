@@ -140,6 +140,12 @@ def test_any_text_of_an_argument_arrives_whole(launch: Callable[..., Printed], f
         ("tactile", {"port": "/dev/x", "sim": "false", "view": "true", "view_port": "9000"}, {}),
         ("tactile", {"port": "/dev/x", "sim": "0", "replay": "a.npz"}, {"port": "with replay:=a.npz"}),
         ("tactile", {"run_dir": "/tmp/x", "sim": "false"}, {"run_dir": "with sim:=false"}),
+        (
+            "tactile",
+            {"replay": "a.npz", "protocol": "binary", "run_dir": "/tmp/x"},
+            {"protocol": "with replay:=a.npz", "run_dir": "with replay:=a.npz"},
+        ),
+        ("tactile", {"replay": "none", "protocol": "binary", "run_dir": "/tmp/x"}, {}),
         ("tactile", {"recording": "a.npy", "recording_rate_hz": "500", "run_dir": "/tmp/x"}, {}),
         ("tactile", {"recording_rate_hz": "500"}, {"recording_rate_hz": "without a recording"}),
         (
