@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 
+from acts_core.errors import ArrayError
 from acts_recon.gait.config import GaitConfig
 from acts_recon.gait.foot import FootTracker
 from acts_recon.gait.loads import Loads
@@ -47,7 +48,15 @@ class GaitTracker:
         return tuple(foot.carries_since_s for foot in self._feet)
 
     def step(self, foot: int, time_s: float, force: float, x_m: float = 0.0, y_m: float = 0.0) -> tuple[Step, ...]:
-        """Take a sample of a foot, 0 left or 1 right; the rest as of `FootTracker.step`."""
+        """Take a sample of a foot, 0 left or 1 right; the rest as of `FootTracker.step`.
+
+        Raises
+        ------
+        ArrayError
+            When the foot is neither.
+        """
+        if foot not in (0, 1):
+            raise ArrayError(f"foot = {foot}: allowed are 0 (left) and 1 (right)")
         return self._keep(foot, self._feet[foot].step(time_s, force, x_m, y_m))
 
     def finish(self) -> tuple[tuple[Step, ...], ...]:

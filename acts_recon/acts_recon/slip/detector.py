@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.watch import NOISE_COUNTS, Slip, SlipWatch
@@ -29,12 +32,14 @@ class SlipDetector:
     Raises
     ------
     ArrayError
-        For a patch smaller than 3 by 3, or noise that is not above 0.
+        For a patch smaller than 3 by 3, or a pitch or noise that is not above 0.
     """
 
     def __init__(
         self, rows: int, cols: int, pitch_m: float, config: SlipConfig | None = None, noise_counts: float = NOISE_COUNTS
     ) -> None:
+        if not 0.0 < pitch_m < math.inf:
+            raise ArrayError(f"pitch_m = {pitch_m}: allowed is a finite number above 0 (m)")
         patch = SkinPatch("patch", 0, rows, 0, cols, pitch_m=pitch_m, row_pitch_m=pitch_m)
         self._watch = SlipWatch(rows, cols, [patch], config, noise_counts)
         self.config = self._watch.config
@@ -57,8 +62,13 @@ class SlipDetector:
         Raises
         ------
         ArrayError
-            When it has another shape or type.
+            When it has another shape or type, or it or the time is not finite.
         """
         self._counts[0] = image.sum()
+        if not (math.isfinite(time_s) and math.isfinite(self._counts[0])):
+            # What is kept of them would tell of slip in all that follows.
+            raise ArrayError(
+                f"an image at {time_s} s whose counts add up to {self._counts[0]}: both must be finite; leave it out"
+            )
         (slip,) = self._watch.step(time_s, image, self._counts)
         return slip

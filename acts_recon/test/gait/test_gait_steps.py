@@ -265,6 +265,12 @@ def test_force_and_centre_of_frames() -> None:
         force_and_centre(frames[0], 0.28, 0.08)
 
 
+@pytest.mark.parametrize("foot", [-1, 2])
+def test_a_foot_that_is_neither_left_nor_right_is_refused(foot: int) -> None:
+    with pytest.raises(ArrayError, match=rf"foot = {foot}: allowed are 0 \(left\) and 1 \(right\)"):
+        GaitTracker().step(foot, 0.0, 1.0)
+
+
 def test_settings_that_cannot_be_are_refused() -> None:
     with pytest.raises(SettingsError, match="allowed is above lifted_share"):
         GaitConfig(lifted_share=0.5, loaded_share=0.4)

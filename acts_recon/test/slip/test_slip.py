@@ -121,6 +121,24 @@ def test_images_of_another_kind_are_refused() -> None:
             detector.step(0.0, wrong)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("pitch_m", [0.0, -0.003, np.nan, np.inf])
+def test_a_pitch_that_cannot_be_is_refused(pitch_m: float) -> None:
+    with pytest.raises(ArrayError, match="pitch_m"):
+        SlipDetector(SIDE, SIDE, pitch_m)
+
+
+@pytest.mark.parametrize(("time_s", "count"), [(np.nan, 0.0), (np.inf, 0.0), (0.5, np.nan), (0.5, np.inf)])
+def test_times_and_counts_that_are_no_numbers_are_refused_and_leave_no_trace(time_s: float, count: float) -> None:
+    detector, undisturbed, image = (*(SlipDetector(SIDE, SIDE, PITCH_M) for _ in range(2)), press(3, 3))
+    wrong = image.copy()
+    wrong[2, 5] += count
+    for frame in range(200):
+        if frame == 100:
+            with pytest.raises(ArrayError, match="finite"):
+                detector.step(time_s, wrong)
+        assert detector.step(0.005 * frame, image) == undisturbed.step(0.005 * frame, image)
+
+
 def first_slip(images: list[NDArray[np.float32]], rate_hz: float, config: SlipConfig | None = None) -> int | None:
     """Number of the first image at which slip is told."""
     detector = SlipDetector(SIDE, SIDE, PITCH_M, config)
