@@ -98,10 +98,20 @@ def measure_in(field: ArrayLike) -> Measure:
     Raises
     ------
     ArrayError
-        For any other shape or type.
+        For any other shape or type; from what is returned, for a taxel beyond the field.
     """
     image = np.asarray(field)
     if image.ndim != 2 or image.dtype.kind not in "iu":
         raise ArrayError(f"field of shape {image.shape} and type {image.dtype}: a field is (rows, cols) whole counts")
     values = image.tolist()
-    return lambda row, col: int(values[row][col])
+
+    def measure(row: int, col: int) -> int:
+        try:
+            return int(values[row][col])
+        except IndexError:
+            raise ArrayError(
+                f"taxel in row {row}, column {col} of a field of {image.shape[0]} x {image.shape[1]}: give a field as "
+                "large as the array"
+            ) from None
+
+    return measure

@@ -200,3 +200,10 @@ def test_published_adaptive_frames(m: int, recording_path: Callable[[str], Path]
     field = np.where(measured, archive["frames"][which], 0).astype(int)
     indices, _ = adaptive(measure_in(field), 32, 32, m, threshold_counts=50, neighbour_order="rows")
     assert set(indices.tolist()) == set(np.flatnonzero(measured).tolist())
+
+
+@pytest.mark.parametrize("shape", [(4, 8), (8, 4), (0, 0)])
+def test_a_field_smaller_than_the_array_is_refused(shape: tuple[int, int]) -> None:
+    sampler = Sampler(SamplingConfig("uniform", 8, 8, 64))
+    with pytest.raises(ArrayError, match=f"a field of {shape[0]} x {shape[1]}: give a field as large as the array"):
+        sampler.frame(measure_in(np.zeros(shape, dtype=np.uint16)))
