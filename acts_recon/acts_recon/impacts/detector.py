@@ -327,8 +327,8 @@ class ImpactDetector:
         is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
         course = touch.path()
         found = self._footprint(touch, *course) if is_short else None
-        fitted = found if found is not None and found.is_better_than_images else None
         x_m, y_m, peak_n, peak_sd_n = touch.peak_x_m, touch.peak_y_m, touch.peak_n, touch.peak_sd_n
+        fitted = found if found is not None and found.is_better_than_images(peak_n, peak_sd_n) else None
         if fitted is not None:
             # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
             course = fitted.time_s, fitted.force_n, *fitted.path(fitted.time_s)

@@ -46,6 +46,10 @@ _MOST_MISFIT, _WIDEST = 2.0, 2.0
 # Where a pressed taxel is measured in this share of the frames or more, images hold what was measured. With `random`
 # and `uniform` it is in a few only.
 _MEASURED_SHARE = 0.3
+# Nor is what presses round where taxels with a fifth of the largest force or more were measured so often each, and the
+# fit has more force than the images show by so many of their standard deviations. Of balls few fits have, and there the
+# images are nearer to the truth. Where taxels are measured less often, as with `random`, images show too little.
+_STRONG_SHARE, _OFTEN, _MOST_ABOVE_SD = 0.2, 1.5, 5.0
 # Less than a few measurements take. At the time of today nodes would fall together that are not a microsecond apart.
 _LEAST_S = 2e-5
 _MOST_NODES = 24
@@ -73,9 +77,10 @@ class Footprint:
         Along x and y.
     covariance : np.ndarray [shape=(2, 2), dtype=float64]
         Of the velocity [m^2/s^2].
-    is_better_than_images : bool
-        False where what pressed is not round, unless its taxels were measured so rarely that images show little of it.
-        A round footprint that passes beside an edge explains that in part, with any force and place.
+    explains_samples : bool
+        Whether it explains the samples, or these are so few of each taxel that images show little of what pressed.
+    strong_samples : float
+        How often a taxel was measured with a fifth of the largest force or more, in the mean of those that were.
     """
 
     time_s: Array
@@ -86,7 +91,21 @@ class Footprint:
     y_m: float
     velocity_m_s: Array
     covariance: Array
-    is_better_than_images: bool = True
+    explains_samples: bool = True
+    strong_samples: float = 1.0
+
+    def is_better_than_images(self, peak_n: float, peak_sd_n: float) -> bool:
+        """Whether it tells more of what pressed than images do.
+
+        A round footprint that passes beside an edge explains that in part, with any force and place.
+
+        Parameters
+        ----------
+        peak_n, peak_sd_n : float
+            The largest force in the images, and its standard deviation [N].
+        """
+        above_n = float(self.force_n.max()) - peak_n
+        return self.explains_samples and (self.strong_samples < _OFTEN or above_n <= _MOST_ABOVE_SD * peak_sd_n)
 
     def path(self, time_s: Array) -> tuple[Array, Array]:
         """x and y of the centre at these times [m]; held before the first of its force and after the last."""
@@ -193,6 +212,7 @@ def fit_footprint(
     misfit = float(np.mean(model.residuals(state)[: taxel.size][pressed] ** 2))
     wider = float(np.exp((state - model.before)[4 + nodes :].max()))
     measured_share = float(np.count_nonzero(pressed)) / (frames * np.unique(taxel[pressed]).size)
+    strong = taxel[force_n > _STRONG_SHARE * force_n.max()]
     jacobian = model.jacobian(state)
     clusters, cluster = np.unique(taxel, return_inverse=True)
     scores = np.zeros((clusters.size, state.size))
@@ -218,6 +238,7 @@ def fit_footprint(
         state[2:4].copy(),
         covariance[2:4, 2:4],
         wider <= _WIDEST and (misfit <= _MOST_MISFIT or measured_share < _MEASURED_SHARE),
+        strong.size / np.unique(strong).size,
     )
 
 

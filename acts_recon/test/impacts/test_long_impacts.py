@@ -21,14 +21,30 @@ SAMPLE_S = 18e-6
 ONSET_S, CONTACT_S = 0.2, 0.008
 
 
-@pytest.mark.parametrize("angle_rad", [0.1, 0.5, 0.9, 1.3, 1.7])
-@pytest.mark.parametrize(("scheme", "m"), [("tracking", 64), ("tracking", 128), ("adaptive", 128)])
-def test_the_force_of_an_edge_is_that_of_what_was_pressed(scheme: str, m: int, angle_rad: float) -> None:
-    """A round footprint that passes beside the edge explained it, with up to a hundred times its force."""
+SCHEMES = ("tracking", 64), ("tracking", 128), ("adaptive", 128)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "m", "angle_rad", "length_taxels"),
+    [
+        *((scheme, m, angle_rad, 4.0) for scheme, m in SCHEMES for angle_rad in (0.1, 0.5, 0.9, 1.3, 1.7)),
+        # A round footprint explains the samples of these well.
+        ("tracking", 64, 0.05, 4.0),
+        ("tracking", 128, 0.25, 2.5),
+        ("tracking", 128, 1.05, 3.0),
+        ("tracking", 128, 3.05, 4.0),
+        ("adaptive", 64, 1.65, 4.0),
+        ("adaptive", 128, 1.45, 5.0),
+    ],
+)
+def test_the_force_of_an_edge_is_that_of_what_was_pressed(
+    scheme: str, m: int, angle_rad: float, length_taxels: float
+) -> None:
+    """A round footprint that passes beside the edge explained it, with up to two hundred times its force."""
     rows, cols = np.indices((24, 32))
     along = (cols - 15.2) * math.cos(angle_rad) + (rows - 11.7) * math.sin(angle_rad)
     across = (rows - 11.7) * math.cos(angle_rad) - (cols - 15.2) * math.sin(angle_rad)
-    edge = 700 * np.exp(-((along / 4.0) ** 2 + across**2) / 2)
+    edge = 700 * np.exp(-((along / length_taxels) ** 2 + across**2) / 2)
     rng = np.random.default_rng(1)
     settings = ReconstructionSettings(rows=24, cols=32, touch_counts=25)
     recovery = settings.recovery()
