@@ -18,6 +18,11 @@ RULE = "consists of letters, digits and _, and does not begin with a digit"
 """The same, as the end of a sentence about a name."""
 
 _LENGTH_MAX = 64
+_TOPIC_LENGTH_MAX = 247
+"""Of a topic or a service, in ROS."""
+
+_BELOW_LENGTH_MAX = 64
+"""Of what a node or a namespace puts behind its own name, such as ``/driver/query_board``."""
 
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _FULL_NAME = re.compile(r"(/[A-Za-z_]\w*)+", re.ASCII)
@@ -52,16 +57,21 @@ def full_name(given: str, what: str = "topic") -> str:
     given : str
         As somebody writes it, such as ``/plate/contact`` or ``plate``.
     what : str
-        What it names, for the message.
+        What it names, for the message: "topic", "name of a service", "name of a node" or "namespace".
 
     Raises
     ------
     SettingsError
-        ROS has no such names.
+        ROS has no such names, or none as long.
     """
     name = f"/{given.strip('/')}"
     if not is_full_name(name):
         raise SettingsError(f"{given!r} is no {what}: allowed are {ALLOWED}, parts with / between")
+    longest = _TOPIC_LENGTH_MAX - (_BELOW_LENGTH_MAX if what in ("namespace", "name of a node") else 0)
+    if len(name) > longest:
+        raise SettingsError(
+            f"'{name[:_LENGTH_MAX]}...' is no {what}: it has {len(name)} characters, at most {longest} are allowed"
+        )
     return name
 
 

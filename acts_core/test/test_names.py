@@ -42,6 +42,18 @@ def test_what_ros_has_no_name_for_is_refused(given: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("what", "longest"),
+    [("topic", 247), ("name of a service", 247), ("name of a node", 183), ("namespace", 183)],
+)
+def test_a_name_is_as_long_as_ros_takes_it_with_what_a_node_puts_behind(what: str, longest: int) -> None:
+    assert full_name("a" * (longest - 1), what) == "/" + "a" * (longest - 1)
+    with pytest.raises(
+        SettingsError, match=rf"'/a{{63}}\.\.\.' is no {what}: it has {longest + 1} .* at most {longest}"
+    ):
+        full_name("a" * longest, what)
+
+
+@pytest.mark.parametrize(
     ("word", "message"),
     [
         ("__ns:=/9a", "__ns:=/9a: '/9a' is no namespace: allowed are letters"),
