@@ -361,7 +361,10 @@ class ImpactDetector:
             path_x_m=path_x_m,
             path_y_m=path_y_m,
         )
-        return told if fitted is None or kind is not Kind.IMPACT else _with_direction(told, fitted)
+        # Along something long no motion is seen.
+        if fitted is None or fitted.is_long or kind is not Kind.IMPACT:
+            return told
+        return _with_direction(told, fitted)
 
     def _onset(self, touch: Touch, force: Force, fitted: Footprint | None, is_short: bool) -> tuple[float, float]:
         """When a touch that is over first touched, and the standard deviation [s]."""

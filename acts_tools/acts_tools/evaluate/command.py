@@ -12,7 +12,7 @@ from acts_tools.evaluate.classification import classification_command
 from acts_tools.evaluate.gait import gait_command
 from acts_tools.evaluate.hand import hand_command
 from acts_tools.evaluate.images import events_command, objects_command, recovery_command
-from acts_tools.evaluate.impacts import impacts_command, ricochet_command
+from acts_tools.evaluate.impacts import edges_command, impacts_command, ricochet_command
 from acts_tools.evaluate.outlines import outlines_command
 from acts_tools.evaluate.public import convert_command
 from acts_tools.evaluate.slip import slip_command, slip_sampled_command
@@ -51,6 +51,7 @@ def add_parser(subparsers: Any) -> None:
         slip_sampled_command,
         impacts_command,
         ricochet_command,
+        edges_command,
         spectra_command,
         outlines_command,
         gait_command,

@@ -13,7 +13,18 @@ import pytest
 from acts_tools.arguments import real, whole
 from acts_tools.cli import main
 
-EVALUATIONS = ("classification", "events", "gait", "impacts", "objects", "outlines", "ricochet", "spectra", "wearables")
+EVALUATIONS = (
+    "classification",
+    "edges",
+    "events",
+    "gait",
+    "impacts",
+    "objects",
+    "outlines",
+    "ricochet",
+    "spectra",
+    "wearables",
+)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""`acts evaluate impacts` and `acts evaluate ricochet`: what they report of a few balls."""
+"""`acts evaluate impacts`, `ricochet` and `edges`: what they report of a few balls and edges."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
 from acts_sim.impacts import Scene
 from acts_tools.cli import main
-from acts_tools.evaluate.impacts import plays, ricochet_command
+from acts_tools.evaluate.impacts import edges_command, plays, ricochet_command
 from acts_tools.evaluate.impacts.impacts_command import TOUCH_MS, drops_of, seen_by_us
 from acts_tools.evaluate.impacts.ricochet_command import numbered_throw, told_by_us
 
@@ -117,3 +117,23 @@ def test_directions_are_told_better_than_by_the_papers_method(tmp_path: Path) ->
     assert all(20 < np.count_nonzero(frames.max(axis=(1, 2)) > 50) < 200 for frames in written)
     assert whole["acts"]["unknown"] == 0
     assert whole["acts"]["mean_deg"] < 3 < whole["paper"]["mean_with_guesses_deg"]
+
+
+def test_edges_are_told_with_their_force_and_place(tmp_path: Path) -> None:
+    out = tmp_path / "edges.json"
+    words = ["--seeds", "4", "--scheme", "tracking", "random", "tracking", "--m", "64", "64", "--json", str(out)]
+    assert main(["evaluate", "edges", *words]) == 0
+    report = json.loads(out.read_text())
+    assert [(entry["scheme"], entry["m"]) for entry in report["results"]] == [("tracking", 64), ("random", 64)]
+    tracking, random = report["results"]
+    assert (tracking["edges"], tracking["told"], tracking["with_direction"]) == (4, 4, 0)
+    assert tracking["peak_share"]["p5"] > 0.9
+    assert tracking["peak_share"]["max"] < 1.1
+    assert tracking["off_mm"]["max"] < 1.0
+    assert random["peak_share"]["max"] < 1.6
+
+
+def test_of_edges_of_which_no_impact_is_told_there_are_no_numbers() -> None:
+    scores = edges_command.scores_of([None, None])
+    assert (scores["edges"], scores["told"], scores["with_direction"]) == (2, 0, 0)
+    assert scores["peak_share"]["p5"] is scores["peak_share"]["max"] is scores["off_mm"]["median"] is None
