@@ -9,21 +9,21 @@ main thread.
 
 from __future__ import annotations
 
-import ctypes
+import errno
 import os
 import selectors
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import IO
 
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.stop_signals import LAST_RESORT_VARIABLE, signal_name
 from acts_ros.executables.refused import LAUNCHER_VARIABLE
+from acts_ros.processes.children import catches_sigterm, leave_with_parent, signal_group
 from acts_ros.processes.console import Console
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import RespawnWait
@@ -46,7 +46,6 @@ _READS = 16
 _READ_BYTES = 65536
 # What has no end of line by then is shown as a line.
 _LINE_BYTES_MAX = 65536
-_PR_SET_PDEATHSIG = 1
 
 
 @dataclass
@@ -268,12 +267,9 @@ class Launcher:
         # Before it is reaped, its number, which is also that of its process group, cannot be given to another process.
         if os.waitid(os.P_PID, popen.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
             return
-        with suppress(ProcessLookupError):
-            os.killpg(popen.pid, signal.SIGTERM)  # processes that it has started and left behind
+        signal_group(popen.pid, signal.SIGTERM)  # processes that it has started and left behind
         code = popen.wait()
-        try:
-            os.killpg(popen.pid, 0)
-        except ProcessLookupError:
+        if signal_group(popen.pid, 0) == errno.ESRCH:
             self._groups.discard(popen.pid)  # the group is empty; its number may be given to another process
         for stream in self._streams():
             if stream.child is child:
@@ -338,7 +334,7 @@ class Launcher:
                     _escalation(label, self._sigkill_timeout_s, "SIGTERM", "SIGKILL"),
                 ),
             ]
-            is_starting = now_s - child.started_s < _YOUNG_S and not _catches_sigterm(child.popen.pid)
+            is_starting = now_s - child.started_s < _YOUNG_S and not catches_sigterm(child.popen.pid)
             self._send(child, signal.SIGTERM if is_starting else signal.SIGINT)
 
     def _send(self, child: _Child, number: signal.Signals) -> None:
@@ -347,8 +343,12 @@ class Launcher:
         self._console.say("INFO", label, f"sending signal '{number.name}' to process[{label}]")
         child.killed = number is signal.SIGKILL
         # To the whole group, as a terminal does it: a wrapper script ends together with its program.
-        with suppress(ProcessLookupError):
-            os.killpg(child.popen.pid, number)
+        if signal_group(child.popen.pid, number) != errno.EPERM:
+            return
+        self._console.say("ERROR", label, f"process[{label}] is another user's, as behind sudo, and does not get it")
+        if child.killed:
+            child.failure = f"could not be ended: end process {child.popen.pid} yourself"
+            child.popen = None
 
     def _drain(self) -> None:
         """Read the output that descendants of ended processes still write, for `_DRAIN_S`."""
@@ -359,18 +359,9 @@ class Launcher:
     def _kill_rest(self) -> None:
         """Kill all that is left of any process group, also after an error of the launcher."""
         for group in self._groups:
-            with suppress(ProcessLookupError, PermissionError):
-                os.killpg(group, signal.SIGKILL)
+            signal_group(group, signal.SIGKILL)
         for stream in self._streams():
             stream.pipe.close()
-
-
-def _catches_sigterm(pid: int) -> bool:
-    """Whether a process handles SIGTERM or ignores it; False where it has ended."""
-    with suppress(OSError):
-        masks = dict(line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines())
-        return bool((int(masks["SigCgt"], 16) | int(masks["SigIgn"], 16)) >> (signal.SIGTERM - 1) & 1)
-    return False
 
 
 def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> str:
@@ -382,15 +373,3 @@ def _escalation(label: str, timeout_s: float, sent: str, next_signal: str) -> st
 
 def _describe_code(code: int) -> str:
     return f"exit code {code}" if code >= 0 else f"exit code {code} ({signal_name(-code)})"
-
-
-def leave_with_parent(parent_pid: int) -> Callable[[], None]:
-    """Return a function for a child to call before its program, so that it gets SIGTERM if its parent is killed."""
-    libc = ctypes.CDLL(None, use_errno=True)
-
-    def prepare() -> None:
-        libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
-        if os.getppid() != parent_pid:
-            os._exit(1)  # the parent was killed before the line above
-
-    return prepare

@@ -232,6 +232,36 @@ def shell(script: str, *, respawn: bool = False) -> Process:
     return Process("it", ("/bin/sh", "-c", script), dict(os.environ), "screen", respawn, 0.01)
 
 
+def test_what_is_another_users_is_told_and_keeps_nobody_else_from_ending_in_order(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As what is behind sudo: one that ends by itself, and one that does not."""
+    killpg, screen, others = os.killpg, io.StringIO(), list[int]()
+
+    def refused(group: int, number: int) -> None:
+        others.extend(int(pid) for pid in re.findall(r"sudo-\d.: process started with pid .(\d+)", screen.getvalue()))
+        if group in others:
+            raise PermissionError(errno.EPERM, "Operation not permitted")
+        killpg(group, number)
+
+    monkeypatch.setattr(os, "killpg", refused)
+    environment = dict(os.environ)
+    orderly = f"trap 'echo orderly; exit 0' INT TERM; kill -INT {os.getpid()}; while :; do sleep 0.02; done"
+    plan = [
+        Process("sudo-1", ("/bin/sh", "-c", "exit 0"), environment, "screen", False, 0.0),
+        Process("sudo-2", ("/bin/sleep", "60"), environment, "screen", False, 0.0),
+        Process("own", ("/bin/sh", "-c", orderly), environment, "screen", False, 0.0),
+    ]
+    try:
+        assert Launcher(Console(None, screen), 2.0, 0.1).run(plan) == 1
+    finally:
+        killpg(others[-1], signal.SIGKILL)
+    output = screen.getvalue()
+    assert "[own] orderly" in output
+    assert output.count("process[sudo-2] is another user's, as behind sudo, and does not get it") == 3
+    assert f"sudo-2 could not be ended: end process {others[-1]} yourself" in output
+
+
 @pytest.mark.parametrize("script", ["exec cat /dev/zero", "exec yes"], ids=["without an end of a line", "lines"])
 def test_one_that_writes_without_a_pause_does_not_keep_the_launch_from_ending(tmp_path: Path, script: str) -> None:
     program = PROGRAM.replace(

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from acts_ros.processes.launcher import leave_with_parent
+from acts_ros.processes.children import leave_with_parent
 
 
 @contextmanager

@@ -33,7 +33,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from acts_ros.processes.launcher import leave_with_parent
+from acts_ros.processes.children import leave_with_parent
 from acts_tools.two_machines.conditions import Conditions, Traffic
 
 INTERFACE = "cable0"
