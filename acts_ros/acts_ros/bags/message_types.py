@@ -47,7 +47,6 @@ class Definitions:
 
     def __init__(self) -> None:
         self._store = get_typestore(Stores.EMPTY)
-        self._known: set[str] = set()
 
     def describe(self, name: str) -> tuple[str, str]:
         """Complete definition of a type (with those it contains) and its hash.
@@ -104,15 +103,14 @@ class Definitions:
             )
 
     def _load(self, name: str) -> None:
-        if name in self._known:
+        if name in self._store.fielddefs:
             return
-        self._known.add(name)
         types = get_types_from_msg(_message_file(name).read_text(), name)
         for _, fields in types.values():
             for _, field in fields:
                 for inner in _names(field):
                     self._load(inner)
-        self._store.register({name: value for name, value in types.items() if name not in self._store.fielddefs})
+        self._store.register(types)
 
 
 def _hash(name: str, definition: str, kind: MessageDefinitionFormat) -> str:

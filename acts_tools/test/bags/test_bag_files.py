@@ -95,6 +95,26 @@ def test_unknown_types_are_named(name: str) -> None:
         Definitions().describe(name)
 
 
+def test_a_type_without_a_definition_is_refused_however_often_it_is_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As for each of its topics: a package may have its types in IDL only."""
+    index = tmp_path / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "fake_msgs").touch()
+    types = tmp_path / "share/fake_msgs/msg"
+    types.mkdir(parents=True)
+    (types / "Outer.msg").write_text("Inner inner\n")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", os.pathsep.join([str(tmp_path), os.environ["AMENT_PREFIX_PATH"]]))
+    definitions = Definitions()
+    for name in ("fake_msgs/msg/Outer", "fake_msgs/msg/Inner"):
+        for _ in range(2):
+            with pytest.raises(RecordingError, match="no definition of message type 'fake_msgs/msg/Inner'"):
+                definitions.describe(name)
+    (types / "Inner.msg").write_text("int32 number\n")
+    assert "MSG: fake_msgs/Inner" in definitions.describe("fake_msgs/msg/Outer")[0]
+
+
 def test_a_bag_is_read_back_by_us_and_by_rosbags(tmp_path: Path) -> None:
     messages = write_bag(tmp_path / "bag", 12)
     assert read(tmp_path / "bag") == messages
