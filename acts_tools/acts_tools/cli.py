@@ -87,7 +87,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
-    except ModuleNotFoundError as error:
+    except ImportError as error:
         advice = advice_about(error)
         if not advice:
             raise

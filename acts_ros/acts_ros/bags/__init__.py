@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 
 from acts_core.errors import RecordingError
+
+_HOW = "Install it with: pip install rosbags==0.11.9"
 
 
 def require_rosbags() -> None:
@@ -16,9 +19,13 @@ def require_rosbags() -> None:
     Raises
     ------
     RecordingError
-        It is not installed.
+        It is not installed, or too old.
     """
     if importlib.util.find_spec("rosbags") is None:
+        raise RecordingError(f"the Python package rosbags is not installed. {_HOW}")
+    try:
+        importlib.import_module("acts_ros.bags.reading")
+    except ImportError as error:
         raise RecordingError(
-            "the Python package rosbags is not installed. Install it with: pip install rosbags==0.11.9"
-        )
+            f"the Python package rosbags is of another version, or not whole ({error}). {_HOW}"
+        ) from error

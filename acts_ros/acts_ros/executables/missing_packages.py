@@ -9,10 +9,10 @@ _FROM_PIP = ("mujoco", "rosbags", "websockets")
 """Modules of requirements-ros.txt; what needs ur_rtde says so by itself."""
 
 
-def advice_about(error: ModuleNotFoundError) -> str:
+def advice_about(error: ImportError) -> str:
     """What to install, or nothing where that is not known.
 
-    A module of a package that is there, but too old for it, is missing, too.
+    A package that is there, but too old, lacks a module or a name in it.
     """
     package = (error.name or "").partition(".")[0]
     if package not in _FROM_PIP:

@@ -72,7 +72,7 @@ class Program:
         except ActsError as error:
             print(f"error: {error}", file=sys.stderr, flush=True)
             return exit_code(error)
-        except ModuleNotFoundError as error:
+        except ImportError as error:
             advice = advice_about(error)
             if not advice:
                 raise

@@ -139,6 +139,14 @@ def test_a_package_that_rosdep_does_not_know_is_named_with_what_to_do(tmp_path: 
     assert code == REFUSED_EXIT_CODE
 
 
+@pytest.mark.parametrize("module", ["rosbags", "websockets"])
+def test_a_package_that_lacks_a_name_is_too_old(tmp_path: Path, module: str) -> None:
+    said, code = run_to_refusal(tmp_path, f"from {module} import a_name\n")
+    assert "Traceback" not in said
+    assert said.startswith(f"error: {module} is not installed, or too old: pip install -r requirements-ros.txt")
+    assert code == REFUSED_EXIT_CODE
+
+
 @pytest.mark.parametrize(
     ("error", "words", "environment", "code"),
     [

@@ -8,6 +8,8 @@ from __future__ import annotations
 import json
 import os
 import re
+import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Sequence
@@ -113,6 +115,23 @@ def test_a_type_without_a_definition_is_refused_however_often_it_is_asked_for(
                 definitions.describe(name)
     (types / "Inner.msg").write_text("int32 number\n")
     assert "MSG: fake_msgs/Inner" in definitions.describe("fake_msgs/msg/Outer")[0]
+
+
+def test_a_library_of_another_version_is_refused_with_the_one_that_is_needed(tmp_path: Path) -> None:
+    (tmp_path / "rosbags").mkdir()
+    (tmp_path / "rosbags/__init__.py").touch()
+    (tmp_path / "rosbags/interfaces.py").touch()
+    done = subprocess.run(
+        [sys.executable, "-c", "from acts_ros.bags import require_rosbags; require_rosbags()"],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), os.environ["PYTHONPATH"]])},
+        capture_output=True,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
+    told = done.stderr.splitlines()[-1]
+    assert told.startswith("acts_core.errors.RecordingError: the Python package rosbags is of another version, or not ")
+    assert told.endswith(". Install it with: pip install rosbags==0.11.9")
 
 
 def test_a_bag_is_read_back_by_us_and_by_rosbags(tmp_path: Path) -> None:
