@@ -15,6 +15,7 @@ from pathlib import Path
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, exit_code
 from acts_core.names import own_words
 from acts_core.stop_signals import StopSignals
+from acts_ros.executables.middleware_choice import check_middleware
 from acts_ros.executables.missing_packages import advice_about
 from acts_ros.executables.refused import stay, take_stay_word
 from acts_ros.executables.shared_memory import check_shared_memory
@@ -56,6 +57,7 @@ class Program:
                 # Imported modules stay: searching them for garbage again and again takes a tenth of the start-up.
                 gc.disable()
                 check_shared_memory()
+                check_middleware(os.environ)
                 module = import_module(self._module)
                 gc.freeze()
                 gc.enable()

@@ -147,6 +147,17 @@ def test_a_package_that_lacks_a_name_is_too_old(tmp_path: Path, module: str) -> 
     assert code == REFUSED_EXIT_CODE
 
 
+def test_a_middleware_that_is_not_installed_is_named_with_those_that_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It ended while it was imported, and was started again for ever."""
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_none_cpp")
+    said, code = run_to_refusal(tmp_path, "import rclpy\n")
+    assert said.startswith("error: RMW_IMPLEMENTATION=rmw_none_cpp: that is not installed here, but rmw_")
+    assert "rmw_implementation" not in said
+    assert code == REFUSED_EXIT_CODE
+
+
 @pytest.mark.parametrize(
     ("error", "words", "environment", "code"),
     [
