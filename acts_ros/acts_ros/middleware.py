@@ -115,13 +115,18 @@ def check_domain(environment: Mapping[str, str]) -> None:
 def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
     """Raise `SettingsError` where ROS refuses a command line, or cannot begin its log.
 
-    The first is, for example, a params file that is not YAML; the second, a folder that cannot be written.
+    The first is, for example, a params file that is not YAML, or a word that is not UTF-8; the second, a folder that
+    cannot be written.
     """
     check_remaps(words)
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:
         raise SettingsError(reason_of(error)) from None
+    except UnicodeEncodeError as error:
+        raise SettingsError(
+            f"{error.object!r}: ROS takes text in UTF-8 only; rename the file or folder, or give a link to it"
+        ) from None
     except rclpy_implementation.RCLError as error:
         reason = reason_of(error)
         if not reason.startswith(_NO_LOG):

@@ -89,6 +89,11 @@ def test_a_namespace_that_cannot_be_is_refused() -> None:
         given("--ros-args", "-r", "__ns:=/9a")
 
 
+def test_a_word_that_is_no_text_is_refused_with_what_to_do() -> None:
+    with pytest.raises(SettingsError, match=r"'left.word=/tmp/\\udcff': ROS takes text in UTF-8 only; rename"):
+        given("--set", "left.word=/tmp/\udcff")
+
+
 def test_ros_words_without_their_flag_are_refused_with_where_they_go(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         given("-p", "word:=two")
