@@ -61,7 +61,7 @@ def init(**options: Any) -> None:
         As of `check_domain` and `telling_wrong_arguments`.
     """
     check_domain(os.environ)
-    obstacle = choose_transports(os.environ, rclpy.get_rmw_implementation_identifier(), Path.cwd())
+    obstacle = choose_transports(os.environ, rclpy.get_rmw_implementation_identifier(), Path())
     given = options.get("args")
     with telling_wrong_arguments(sys.argv if given is None else given):
         rclpy.init(**options)

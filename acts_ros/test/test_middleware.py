@@ -210,6 +210,20 @@ def test_a_domain_that_there_is_is_taken(variables: dict[str, str]) -> None:
     check_domain(variables)
 
 
+def test_ros_starts_in_a_folder_that_was_removed(tmp_path: Path) -> None:
+    (tmp_path / "gone").mkdir()
+    result = subprocess.run(
+        [sys.executable, "-c", "import os; os.rmdir(os.getcwd())\nfrom acts_ros import middleware; middleware.init()"],
+        cwd=tmp_path / "gone",
+        env={**os.environ, "ROS_DOMAIN_ID": "201"},
+        capture_output=True,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
+    assert (result.returncode, "Traceback" in result.stderr) == (0, False), result.stderr
+
+
 def test_a_log_that_cannot_be_written_is_told_with_what_to_do(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     result = subprocess.run(
