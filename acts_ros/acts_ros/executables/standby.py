@@ -112,8 +112,16 @@ def take_standby_word(words: MutableSequence[str]) -> Standby | None:
     namespace = next((word.partition(_NAMESPACE_RULE)[2] for word in words if word.startswith(_NAMESPACE_RULE)), "")
     # A process of the same name with other arguments, as those of another board, is no spare of this one. In a number,
     # because the name of a socket is short.
-    equal = zlib.crc32(os.fsencode("\0".join([namespace.strip("/"), *own_words(words)[1:]])))
+    equal = zlib.crc32(os.fsencode("\0".join([_container(), namespace.strip("/"), *own_words(words)[1:]])))
     return Standby(f"{Path(words[0]).name}/{equal:08x}")
+
+
+def _container() -> str:
+    """Where the numbers of processes are counted: those of two containers are alike, and may share the network."""
+    try:
+        return str(Path("/proc/self/ns/pid").readlink())
+    except OSError:
+        return ""
 
 
 def say_ready() -> None:

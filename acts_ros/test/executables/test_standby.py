@@ -12,7 +12,7 @@ import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -49,10 +49,10 @@ sys.exit(program.Program("working_node")())
 class Program:
     """A process, and the lines that it prints."""
 
-    def __init__(self, folder: Path, *words: str) -> None:
+    def __init__(self, folder: Path, *words: str, within: Sequence[str] = ()) -> None:
         path = os.pathsep.join([str(folder), os.environ.get("PYTHONPATH", "")])
         self.process = subprocess.Popen(
-            [sys.executable, "-c", PROGRAM, STANDBY_WORD, *words],
+            [*within, sys.executable, "-c", PROGRAM, STANDBY_WORD, *words],
             env={**os.environ, "PYTHONPATH": path},
             stdout=subprocess.PIPE,
             text=True,
@@ -85,8 +85,8 @@ def start(tmp_path: Path) -> Iterator[Start]:
     (tmp_path / "working_node.py").write_text(NODE)
     programs: list[Program] = []
 
-    def run(*words: str) -> Program:
-        programs.append(Program(tmp_path, *words))
+    def run(*words: str, within: Sequence[str] = ()) -> Program:
+        programs.append(Program(tmp_path, *words, within=within))
         return programs[-1]
 
     yield run
@@ -127,6 +127,15 @@ def test_a_process_of_another_board_is_no_spare(start: Start) -> None:
     for port in ("serial:1", "serial:2"):
         words = ["--set", f"driver.port={port}", "--ros-args", "-r", "__ns:=/plate"]
         assert start(*words).lines(2) == ["imported", " ".join(["works", *words])]
+
+
+def test_a_process_of_another_container_is_no_spare(start: Start) -> None:
+    """Two containers with the network of the machine (``docker run --network host``) count their processes alike."""
+    container = ["unshare", "--user", "--pid", "--fork", "--kill-child"]
+    if subprocess.run([*container, "true"], check=False).returncode:
+        pytest.skip("user namespaces are not allowed")
+    for _ in range(2):
+        assert start(within=container).lines(2) == ["imported", "works"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
