@@ -12,6 +12,7 @@ from pathlib import Path
 
 import yaml
 
+_PARAMS_FILE = "--params-file"
 _PARAMETERS = "ros__parameters"
 _NEAR = 0.85
 
@@ -37,8 +38,11 @@ def shared_keys(node: str, words: Sequence[str]) -> dict[str, str]:
     shared: dict[str, str] = {}
     own: set[str] = set()
     for option, value in _ros_options(words):
-        if option in ("-p", "--param"):
-            own.add(value.partition(":=")[0].rpartition(":")[2])
+        if option != _PARAMS_FILE:
+            given_to, key = _node_and_key(value)
+            # With a node's name before it, it is for no other.
+            if given_to in ("", node.rpartition("/")[2]):
+                own.add(key)
             continue
         for section, key in _keys_of_file(Path(value)):
             if not re.fullmatch(_pattern(section), node):
@@ -56,6 +60,8 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
     They have the node's name without its namespace, or nearly its name; or its name in nearly its namespace, where no
     section is for this node alone. Of namespaces that are only numbered differently, each is another's.
 
+    So it is with ``-p NODE:NAME:=VALUE`` on the command line, which is for ``/NODE``.
+
     Parameters
     ----------
     node, words
@@ -68,7 +74,14 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
     """
     own_place, _, name = node.rpartition("/")
     said = []
-    given_files = [Path(value) for option, value in _ros_options(words) if option == "--params-file"]
+    for option, value in _ros_options(words):
+        given_to, key = _node_and_key(value)
+        if option != _PARAMS_FILE and own_place and given_to == name:
+            said.append(
+                f"{option} {given_to}:{key} is for /{name}, not for {node}, and ignored; did you mean the section "
+                f"/**/{name} of a params file?"
+            )
+    given_files = [Path(value) for option, value in _ros_options(words) if option == _PARAMS_FILE]
     sections = dict.fromkeys((path, section) for path in given_files for section, _ in _keys_of_file(path))
     has_own = any(section == node for _, section in sections)
     for file, section in sections:
@@ -96,8 +109,14 @@ def _ros_options(words: Sequence[str]) -> Iterator[tuple[str, str]]:
     for word, following in zip(words, [*words[1:], ""], strict=True):
         if word in ("--ros-args", "--"):
             is_ros = word == "--ros-args"
-        elif is_ros and word in ("-p", "--param", "--params-file"):
+        elif is_ros and word in ("-p", "--param", _PARAMS_FILE):
             yield word, following
+
+
+def _node_and_key(rule: str) -> tuple[str, str]:
+    """The node, or none, and the parameter of ``NODE:NAME:=VALUE`` or ``NAME:=VALUE``."""
+    given_to, _, key = rule.partition(":=")[0].rpartition(":")
+    return given_to, key
 
 
 def _pattern(section: str) -> str:

@@ -123,6 +123,21 @@ def test_a_key_on_the_command_line_is_refused_even_if_a_file_has_it(context: Con
             declared(context, *file, *words)
 
 
+def test_a_key_of_another_node_on_the_command_line_is_not_this_ones(context: Context, tmp_path: Path) -> None:
+    file = params_file(tmp_path, "/**: {ros__parameters: {rows: 10, rate_hz: 5.0}}")
+    assert declared(context, *file, "-p", "other:rows:=16") == Settings(rate_hz=5.0)
+
+
+def test_a_key_with_the_nodes_name_but_not_its_namespace_is_said(
+    context: Context, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert declared(context, "-p", "example:rate_hz:=10.0", "-p", "other:rate_hz:=20.0") == Settings()
+    said = "-p example:rate_hz is for /example, not for /plate/example, and ignored; did you mean the section /**/ex"
+    errors = capfd.readouterr().err
+    assert errors.count(said) == errors.count("ignored") == 1
+    assert misnamed_sections("/example", ["x", "--ros-args", "-p", "example:rate_hz:=10.0"]) == []
+
+
 def test_what_cannot_be_read_shares_nothing(tmp_path: Path) -> None:
     assert shared_keys("/a", ["x", "--ros-args", "--params-file"]) == {}
     assert shared_keys("/a", ["x", "--ros-args", "--params-file", str(tmp_path / "none.yaml")]) == {}
