@@ -7,6 +7,7 @@
 For publishers and subscriptions made with `overridable`, ``qos_overrides`` in a params file can change this.
 """
 
+import re
 from collections.abc import Mapping
 from copy import copy
 from typing import Any
@@ -18,6 +19,9 @@ from acts_core.errors import SettingsError
 
 OVERRIDES = "qos_overrides."
 """How the names of the parameters begin that override quality of service."""
+
+# What is between that and the policy; several publishers of a topic may be told apart by what is behind the word.
+_END = re.compile(r"(/\w+)+\.(publisher|subscription)(_\w+)?")
 
 _DEPTH_MAX = 2**31 - 1
 _WORDS = {
@@ -78,12 +82,18 @@ def check_overrides(given: Mapping[str, object]) -> None:
     Raises
     ------
     SettingsError
-        For another policy than `overridable` has, or a value that it cannot have.
+        For a name that is not made of topic, ``publisher`` or ``subscription``, and policy; another policy than
+        `overridable` has; or a value that it cannot have.
     """
     for name, value in given.items():
         if not name.startswith(OVERRIDES):
             continue
-        policy = name.rpartition(".")[2]
+        end, _, policy = name.removeprefix(OVERRIDES).rpartition(".")
+        if not _END.fullmatch(end):
+            raise SettingsError(
+                f"{name}: needed is {OVERRIDES}TOPIC.publisher.POLICY or {OVERRIDES}TOPIC.subscription.POLICY, with "
+                "the topic's full name, such as /plate/contact"
+            )
         if policy == "depth":
             # A truth value is a whole number to Python.
             fits, allowed = type(value) is int and 1 <= value <= _DEPTH_MAX, f"a whole number, 1 to {_DEPTH_MAX}"

@@ -3,6 +3,7 @@
 
 """Parameters of real nodes, in this process; ROS_DOMAIN_ID 10."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -102,6 +103,15 @@ def test_an_empty_list_is_refused_by_the_name_of_its_parameter(context: Context,
 def test_quality_of_service_that_is_none_is_refused(context: Context, override: str, said: str) -> None:
     with pytest.raises(SettingsError, match=rf"/plate/example: qos_overrides\./x\.publisher\..*{said}"):
         declare(make_node(context, ["-p", f"qos_overrides./x.publisher.{override}"]), Settings)
+
+
+@pytest.mark.parametrize(
+    "name", ["/x.subscriber.depth", "x.publisher.depth", "/x.depth", "/x/.publisher.depth", "/x.publisher", "depth"]
+)
+def test_quality_of_service_of_what_there_is_not_is_refused(context: Context, name: str) -> None:
+    said = rf"/plate/example: qos_overrides\.{re.escape(name)}: needed is qos_overrides\.TOPIC\.publisher\.POLICY or"
+    with pytest.raises(SettingsError, match=said):
+        declare(make_node(context, ["-p", f"qos_overrides.{name}:=5"]), Settings)
 
 
 def test_without_a_handler_nothing_is_changeable(context: Context) -> None:

@@ -16,7 +16,8 @@ def test_an_override_reaches_its_topic_and_nobody_else() -> None:
     rclpy.init(context=context, domain_id=13)
     arguments = ["--ros-args", "-p", "qos_overrides./overridden.publisher.depth:=17"]
     node = Node("example", context=context, cli_args=arguments)
-    node.create_publisher(Empty, "overridden", **overridable(STREAM))
+    publisher = node.create_publisher(Empty, "overridden", **overridable(STREAM))
+    assert publisher.qos_profile.depth == 17
     assert node.get_parameter("qos_overrides./overridden.publisher.depth").value == 17
     assert STREAM.depth == 256
     node.destroy_node()
