@@ -40,6 +40,9 @@ SettingValue = bool | int | float | str | tuple[float, ...] | tuple[str, ...]
 POWER_RULE = "1e-3 and 1.0e3 are text in YAML, write 1.0e-3 and 1.0e+3"
 """How YAML wants numbers with an exponent, for messages: with a point and with a sign."""
 
+TEXT_RULE = "in YAML, on, off, yes, no, true, false and numbers are text in quotes only, as in 'on'"
+"""How YAML wants text that it would take for something else, for messages."""
+
 _METADATA_KEY = "acts_setting"
 
 
@@ -159,8 +162,7 @@ def checked(name: str, value: Any, default: SettingValue, info: SettingInfo) -> 
     try:
         converted = _converted(value, default)
     except (TypeError, ValueError, OverflowError):
-        hint = f" ({POWER_RULE})" if isinstance(default, float) and _is_power(value) else ""
-        raise _error(name, value, f"a value of type {_type_name(default)}{hint}", info) from None
+        raise _error(name, value, f"a value of type {_type_name(default)}{_hint(value, default)}", info) from None
     if info.choices and converted not in info.choices:
         raise _error(name, value, "", info)
     if info.length is not None and len(cast(Sequence[Any], converted)) != info.length:
@@ -233,6 +235,13 @@ def _is_number(value: object) -> bool:
 def _is_power(value: Any) -> bool:
     """Whether it is a text such as 1e-3, which YAML 1.1 does not take for a number."""
     return isinstance(value, str) and re.fullmatch(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+", value) is not None
+
+
+def _hint(value: Any, default: SettingValue) -> str:
+    """How what was given is written in YAML so as to be taken for what was meant; empty where that is not known."""
+    if isinstance(default, float) and _is_power(value):
+        return f" ({POWER_RULE})"
+    return f" ({TEXT_RULE})" if isinstance(default, str) and isinstance(value, (bool, int, float)) else ""
 
 
 def _type_name(default: SettingValue) -> str:

@@ -30,6 +30,11 @@ _NAMES = {
 }
 
 
+# What `ros2 param set` takes words such as on and 5 for.
+_LIKE_TEXT = {Parameter.Type.BOOL.value, Parameter.Type.INTEGER.value, Parameter.Type.DOUBLE.value}
+_QUOTED = "; for `ros2 param set`, put on, off, yes, no, true, false and numbers in quotes twice: \"'on'\""
+
+
 class CheckedParameterService(ParameterService):
     """Those of rclpy, which raise out of the executor, and so end the process, on a value of no known type.
 
@@ -80,4 +85,5 @@ class CheckedParameterService(ParameterService):
             return f"{parameter.name} is read when {name} starts, and cannot be changed later: start it anew with this"
         if descriptor.dynamic_typing or given == descriptor.type:
             return ""
-        return f"{parameter.name}: given was {_NAMES[given]}; allowed is {_NAMES[descriptor.type]}"
+        hint = _QUOTED if descriptor.type == Parameter.Type.STRING.value and given in _LIKE_TEXT else ""
+        return f"{parameter.name}: given was {_NAMES[given]}; allowed is {_NAMES[descriptor.type]}{hint}"

@@ -209,6 +209,8 @@ def test_a_value_of_no_known_type_or_for_no_parameter_is_refused_and_the_node_go
     assert "type = 200: allowed is 0 to 9" in ask(ParameterValue(type=200)).reason
     whole = ask(ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=20))
     assert whole.reason == "rate_hz: given was a whole number; allowed is a number with a decimal point, such as 1.0"
+    truth = ask(ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=True), "port")
+    assert truth.reason.startswith("port: given was true or false; allowed is text; for `ros2 param set`, put on, off")
     assert "given was no value" in ask(ParameterValue(type=ParameterType.PARAMETER_NOT_SET)).reason
     assert ask(ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=20.0)).successful
     assert node.get_parameter("rate_hz").value == 20.0
