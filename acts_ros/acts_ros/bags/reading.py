@@ -166,8 +166,8 @@ def open_bag(path: Path) -> Iterator[Bag]:
 def _check_files(path: Path) -> None:
     """Refuse files that are not regular or too large, and what unpacks to more than is allowed."""
     for file in path.iterdir() if path.is_dir() else [path]:
-        # What else lies in the folder is not read.
-        if file.is_dir() and file.suffix not in SUFFIXES:
+        # What else lies in the folder is not read, such as the link to nowhere by which an editor locks a file.
+        if (file.is_dir() or not file.exists()) and file.suffix not in SUFFIXES:
             continue
         size = require_regular(file, error=RecordingError)
         if file.name == "metadata.yaml" and size > TEXT_BYTES_MAX:

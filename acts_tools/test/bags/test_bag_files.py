@@ -352,6 +352,7 @@ def test_what_else_lies_in_the_folder_of_a_bag_is_passed_over(tmp_path: Path) ->
     messages = write_bag(tmp_path / "bag", 5)
     for name in ("table", "packed.zstd"):
         (tmp_path / "bag" / name).mkdir()
+    (tmp_path / "bag/.#metadata.yaml").symlink_to("somebody@somewhere.1234:5678")
     assert read(tmp_path / "bag") == messages
     (tmp_path / "bag/more.mcap").mkdir()
     with pytest.raises(RecordingError, match=r"more.mcap: not a regular file"):
