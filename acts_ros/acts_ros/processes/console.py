@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TextIO
 
 from acts_core.errors import LaunchError
+from acts_core.files import path_of
 from acts_ros.processes.screen import Screen
 
 
@@ -29,7 +30,7 @@ def make_log_folder() -> Path:
     """
     base = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
     name = f"{datetime.now():%Y-%m-%d-%H-%M-%S-%f}-{socket.gethostname()}-{os.getpid()}"
-    folder = Path(base).expanduser() / name
+    folder = path_of(base, error=LaunchError) / name
     try:
         folder.mkdir(parents=True)
     except OSError as error:

@@ -23,7 +23,8 @@ from pathlib import Path
 import pytest
 from waiting import wait_for
 
-from acts_ros.processes.console import Console
+from acts_core.errors import LaunchError
+from acts_ros.processes.console import Console, make_log_folder
 from acts_ros.processes.launcher import Launcher
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import LONGEST_WAIT_S, SOON_S, RespawnWait
@@ -357,6 +358,12 @@ def test_a_process_with_an_argument_that_is_no_text_may_die_beside_one_that_stay
     for text in (raw.getvalue().decode(), log.read_text(encoding="utf-8")):
         assert "cmd '/bin/sh -c exit 1 x:=/tmp/\\udcff'" in text
     assert "[it] healthy" in raw.getvalue().decode()
+
+
+def test_a_log_folder_of_somebody_who_is_not_there_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", "~nosuchperson/log")
+    with pytest.raises(LaunchError, match="~nosuchperson/log: "):
+        make_log_folder()
 
 
 class Full(io.StringIO):
