@@ -125,6 +125,9 @@ class OnlyPublishers:
         names = [
             _full_name(info.node_namespace, info.node_name) for info in self._node.get_publishers_info_by_topic(topic)
         ]
+        if len(names) < 2:
+            # One of them has gone meanwhile.
+            return ""
         since_s = self._since_s.setdefault(topic, self._clock())
         if len(set(names)) == 1 and self._clock() - since_s < SAME_NAME_S:
             return ""

@@ -71,6 +71,23 @@ def test_a_node_that_was_killed_and_started_again_is_no_problem_at_first(graph: 
     assert only.problem() == "/plate/touch has 2 publishers (/plate/skin, /plate/skin): end all but one"
 
 
+def test_a_publisher_that_goes_while_it_is_looked_for_is_no_problem(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now_s = 100.0
+    only = OnlyPublishers(graph.watcher, ["touch"], lambda: now_s)
+    graph.publish("skin")
+    forger = graph.publish("forger")
+    assert only.problem() != ""
+    now_s += SAME_NAME_S
+    graph.others.remove(forger)
+    forger.destroy_node()
+    graph.until(lambda: graph.watcher.count_publishers("/plate/touch") == 1)
+    # As it was a moment before.
+    monkeypatch.setattr(graph.watcher, "count_publishers", lambda _topic: 2)
+    assert only.problem() == ""
+
+
 @pytest.mark.parametrize(
     ("own", "message"), [(OK, "/plate/touch has 2 publishers"), (ERROR, "no port; /plate/touch has 2 publishers")]
 )
