@@ -47,7 +47,9 @@ def holders(path: str) -> list[str]:
             if int(process.name) != os.getpid() and any(
                 os.path.realpath(link) == device for link in (process / "fd").iterdir()
             ):
-                found.append(f"{(process / 'comm').read_text().strip()} (process {process.name})")
+                # Cut off after 15 bytes, perhaps within a letter.
+                name = (process / "comm").read_bytes().decode(errors="replace").strip()
+                found.append(f"{name} (process {process.name})")
         except OSError:
             # Another user's process, or one that has just ended.
             continue

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import errno
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -51,3 +53,18 @@ def test_a_name_that_is_too_long_is_only_told(name: str) -> None:
     path = f"/tmp/{name}"
     assert not is_stale_link(path)
     assert path_shown(path) == path
+
+
+def test_a_port_is_held_by_a_program_whose_name_was_cut_off_within_a_letter(tmp_path: Path) -> None:
+    port = tmp_path / "port"
+    port.touch()
+    hold = "Path('/proc/self/comm').write_bytes('fourteen_bytesü'.encode()[:15]); port = open(sys.argv[1])"
+    code = f"import sys; from pathlib import Path; {hold}; print('held', flush=True); sys.stdin.read()"
+    with subprocess.Popen(
+        [sys.executable, "-c", code, str(port)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"held\n"
+        told = not_opened(str(port), errno.EBUSY, "", what="board", present="")
+        process.communicate()
+    assert told == f"port {port} is held by fourteen_bytes\ufffd (process {process.pid}); stop that program first"
