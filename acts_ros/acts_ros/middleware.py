@@ -28,6 +28,7 @@ from rclpy.task import Future
 
 from acts_core.errors import ActsError, SettingsError
 from acts_core.names import check_remaps
+from acts_ros.params_files import more_of
 from acts_ros.processes import packages
 
 _RANGE, _LOCALHOST_ONLY = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"
@@ -122,7 +123,8 @@ def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
     try:
         yield
     except rclpy_implementation.RCLInvalidROSArgsError as error:
-        raise SettingsError(reason_of(error)) from None
+        reason = reason_of(error).strip()
+        raise SettingsError("; ".join(filter(None, (reason, more_of(reason, words))))) from None
     except UnicodeEncodeError as error:
         raise SettingsError(
             f"{error.object!r}: ROS takes text in UTF-8 only; rename the file or folder, or give a link to it"

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Which section of a params file a parameter came from. ROS gives a node only the merged result of all sections."""
+"""Which section of a params file a parameter came from, and what is wrong with a file. ROS tells a node neither."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import yaml
+
+from acts_core.errors import SettingsError
+from acts_core.files import read_text
 
 _PARAMS_FILE = "--params-file"
 _PARAMETERS = "ros__parameters"
@@ -95,6 +98,28 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
         elif given == name and not has_own and _is_misspelt(place, own_place):
             said.append(f"{file}: section {section} is not for {node}, and ignored; did you mean {node}?")
     return said
+
+
+def more_of(refusal: str, words: Sequence[str]) -> str:
+    """What ROS leaves out where it refuses a command line; empty where nothing is known.
+
+    Parameters
+    ----------
+    refusal : str
+        What ROS says.
+    words : sequence of str
+        The command line.
+    """
+    for option, value in _ros_options(words):
+        if f"'{option} {value}'" not in refusal:
+            continue
+        if option != _PARAMS_FILE:
+            return f"an empty text is written {value}\"''\"" if value.endswith(":=") else ""
+        try:
+            yaml.compose(read_text(Path(value), error=SettingsError), Loader=yaml.SafeLoader)
+        except (SettingsError, yaml.YAMLError, RecursionError) as error:
+            return " ".join(str(error).split())
+    return ""
 
 
 def _is_misspelt(place: str, meant: str) -> bool:

@@ -84,6 +84,34 @@ def test_a_params_file_that_ros_cannot_read_is_refused(tmp_path: Path, text: str
     assert ".c:" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"# Gr\xf6\xdfe\n/**: {ros__parameters: {a: 1}}\n", r"params\.yaml: not text in UTF-8 \("),
+        (
+            b"/**:\n  ros__parameters:\n\ta: 1\n",
+            r"found character '\\t' that cannot start .*line 3, column 1",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_params_file_is_told(tmp_path: Path, content: bytes, said: str) -> None:
+    path = tmp_path / "params.yaml"
+    path.write_bytes(content)
+    with pytest.raises(SettingsError, match=rf"'--params-file {path}'.*; .*{said}") as caught:
+        given("--ros-args", "--params-file", str(path))
+    assert "\n" not in str(caught.value)
+
+
+def test_a_folder_is_no_params_file(tmp_path: Path) -> None:
+    with pytest.raises(SettingsError, match=f"; {tmp_path}: not a regular file$"):
+        given("--ros-args", "--params-file", str(tmp_path))
+
+
+def test_how_an_empty_text_is_given_to_ros_is_told() -> None:
+    with pytest.raises(SettingsError, match=r"""'-p word:='.*; an empty text is written word:="''"$"""):
+        given("--ros-args", "-p", "word:=")
+
+
 def test_a_namespace_that_cannot_be_is_refused() -> None:
     with pytest.raises(SettingsError, match="'/9a' is no namespace: allowed are letters"):
         given("--ros-args", "-r", "__ns:=/9a")
