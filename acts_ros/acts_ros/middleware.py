@@ -50,7 +50,11 @@ _SOURCE_PLACE = re.compile(r", at \S+:\d+")
 
 NOT_SENT = ("Failed to publish", "failed to send response", "failed to send request")
 """How rclpy's errors begin of a message, an answer or a question that the middleware did not take."""
-_NO_LOG = "failed to initialize logging"
+# What to do, by a part of what ROS says when it is initialised.
+_ADVICE = {
+    "failed to initialize logging": "set ROS_LOG_DIR to a folder that can be written",
+    "SECURITY ERROR": "make the keys of this enclave with `ros2 security`, or unset ROS_SECURITY_ENABLE",
+}
 
 
 def init(**options: Any) -> None:
@@ -114,10 +118,10 @@ def check_domain(environment: Mapping[str, str]) -> None:
 
 @contextmanager
 def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
-    """Raise `SettingsError` where ROS refuses a command line, or cannot begin its log.
+    """Raise `SettingsError` where ROS refuses a command line, cannot begin its log, or lacks keys.
 
     The first is, for example, a params file that is not YAML, or a word that is not UTF-8; the second, a folder that
-    cannot be written.
+    cannot be written; the third, where ``ROS_SECURITY_ENABLE`` asks for them.
     """
     check_remaps(words)
     try:
@@ -131,9 +135,10 @@ def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
         ) from None
     except rclpy_implementation.RCLError as error:
         reason = reason_of(error)
-        if not reason.startswith(_NO_LOG):
+        advice = next((advice for part, advice in _ADVICE.items() if part in reason), None)
+        if advice is None:
             raise
-        raise SettingsError(f"ROS: {reason}; set ROS_LOG_DIR to a folder that can be written") from None
+        raise SettingsError(f"ROS: {reason}; {advice}") from None
 
 
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:

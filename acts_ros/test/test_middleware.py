@@ -210,6 +210,21 @@ def test_a_domain_that_there_is_is_taken(variables: dict[str, str]) -> None:
     check_domain(variables)
 
 
+def test_keys_that_are_asked_for_and_not_there_are_told_with_what_to_do(tmp_path: Path) -> None:
+    asked = {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Enforce", "ROS_SECURITY_KEYSTORE": str(tmp_path)}
+    result = subprocess.run(
+        [sys.executable, "-c", "from acts_ros import middleware; middleware.init()"],
+        env={**os.environ, "ROS_DOMAIN_ID": "201", **asked},
+        capture_output=True,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
+    told = result.stderr.strip().splitlines()[-1]
+    assert told.startswith("acts_core.errors.SettingsError: ROS: failed to initialize rcl: SECURITY ERROR: ")
+    assert told.endswith("; make the keys of this enclave with `ros2 security`, or unset ROS_SECURITY_ENABLE")
+
+
 def test_ros_starts_in_a_folder_that_was_removed(tmp_path: Path) -> None:
     (tmp_path / "gone").mkdir()
     result = subprocess.run(
