@@ -19,6 +19,7 @@ from acts_core.errors import SettingsError
 from acts_core.settings import describe, from_text, unknown_key_message
 from acts_ros.middleware import telling_wrong_arguments
 from acts_ros.parameters import ros_value
+from acts_ros.params_files import given_to_all
 
 IN_PARAMS_FILE = "params_file"
 """Value that sets nothing: the parameter comes from the params file, or is the default."""
@@ -42,8 +43,8 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
     Raises
     ------
     SettingsError
-        For an unknown node or parameter, with the nearest known name, a value of the wrong type, or ROS arguments that
-        ROS refuses.
+        For an unknown node or parameter, with the nearest known name, a value of the wrong type, ROS arguments that ROS
+        refuses, or a parameter of one node that they give to all.
     """
     # --help is answered before, see acts_ros.executables.program.
     usage = "%(prog)s [--set NODE.PARAMETER=VALUE ...] [--ros-args -p NAME:=VALUE --params-file FILE ...]"
@@ -52,6 +53,7 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
     with telling_wrong_arguments(words):
         own = remove_ros_args(list(words))[1:]
     options = parser.parse_args(own)
+    _refuse_for_all(words, nodes)
     given: dict[str, dict[str, Parameter]] = {node: {} for node in nodes}
     for text in options.set:
         name, equals, value = text.partition("=")
@@ -68,3 +70,16 @@ def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str
         # Given twice, the last one is used.
         given[node][parameter] = Parameter(parameter, value=ros_value(from_text(settings_class, parameter, value)))
     return {node: list(parameters.values()) for node, parameters in given.items()}
+
+
+def _refuse_for_all(words: Sequence[str], nodes: Mapping[str, type]) -> None:
+    """Refuse ``-p NAME:=VALUE`` where some of the nodes have such a parameter: the others would not say which."""
+    for name, value in given_to_all(words):
+        having = [node for node, settings_class in nodes.items() if name in describe(settings_class)]
+        lacking = [node for node in nodes if node not in having]
+        if having and lacking:
+            instead = " ".join(f"--set {node}.{name}={value}" for node in having)
+            raise SettingsError(
+                f"-p {name}:={value} is for all nodes of this process, of which {', '.join(lacking)} cannot take it: "
+                f"give {instead} before --ros-args"
+            )

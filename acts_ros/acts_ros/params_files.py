@@ -100,6 +100,14 @@ def misnamed_sections(node: str, words: Sequence[str]) -> list[str]:
     return said
 
 
+def given_to_all(words: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Name and value, as text, of parameters that a command line gives to all nodes of its process (``-p``)."""
+    for option, value in _ros_options(words):
+        given_to, key = _node_and_key(value)
+        if option != _PARAMS_FILE and not given_to:
+            yield key, value.partition(":=")[2]
+
+
 def more_of(refusal: str, words: Sequence[str]) -> str:
     """What ROS leaves out where it refuses a command line; empty where nothing is known.
 

@@ -122,6 +122,17 @@ def test_a_word_that_is_no_text_is_refused_with_what_to_do() -> None:
         given("--set", "left.word=/tmp/\udcff")
 
 
+@pytest.mark.parametrize("option", ["-p", "--param"])
+def test_what_not_all_nodes_have_is_not_given_to_all_but_as_is_said(option: str) -> None:
+    with pytest.raises(
+        SettingsError, match=r"^-p word:=two is for all .* right cannot .*: give --set left\.word=two b"
+    ):
+        given("--ros-args", option, "word:=two")
+    # These are for one node, for ROS, or for whoever refuses them by their names.
+    others = ["left:word:=two", "use_sim_time:=true", "wrod:=two"]
+    assert given("--ros-args", *(part for other in others for part in (option, other))) == {"left": {}, "right": {}}
+
+
 def test_ros_words_without_their_flag_are_refused_with_where_they_go(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         given("-p", "word:=two")
