@@ -8,7 +8,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of
-from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_times
+from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_recovered, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
@@ -33,6 +33,7 @@ __all__ = [
     "borders_of",
     "force_of",
     "mono16",
+    "require_recovered",
     "require_times",
     "rgb8",
     "slope_table",

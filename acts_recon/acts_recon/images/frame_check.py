@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +12,9 @@ from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import NO_PATCH, Layout
 from acts_recon.images.frame_check_kernels import COUNT_OUT_OF_RANGE, INDEX_OUT_OF_RANGE
+
+# Three hundred years, as ROS can stamp: later are nanoseconds or microseconds where seconds are needed.
+_LATEST_S = 1e10
 
 LONGEST_PAUSE_S = 0.5
 """After a gap this long between frames nothing of the earlier ones counts on, unless a setting says otherwise."""
@@ -34,8 +35,32 @@ def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> 
 def require_times(end_s: float, duration_s: float) -> None:
     """Raise `ArrayError` unless a frame that ended then and took so long [s] can be."""
     # Written so that NaN is refused, too.
-    if not (math.isfinite(end_s) and 0 <= duration_s < math.inf):
-        raise ArrayError(f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative")
+    if not (abs(end_s) < _LATEST_S and 0 <= duration_s < _LATEST_S):
+        raise ArrayError(
+            f"end {end_s} s and duration {duration_s} s: needed are finite times, none negative, below {_LATEST_S:g} s"
+        )
+
+
+def require_recovered(
+    shape: tuple[int, int], end_s: float, duration_s: float, **images: NDArray[np.float32] | None
+) -> None:
+    """Raise `ArrayError` unless a frame can be at these times [s], and its images have this shape and are finite.
+
+    None stands for no image. `age_s` may be infinite, for never, but not below 0.
+    """
+    require_times(end_s, duration_s)
+    for name, given in images.items():
+        if given is None:
+            continue
+        if given.shape != shape:
+            raise ArrayError(f"{name} {given.shape}: needed is {shape}")
+        # Written so that NaN is refused, too.
+        if name == "age_s" and not (given >= 0).all():
+            raise ArrayError(
+                "age_s with NaN or below 0: needed is how long ago each taxel was measured [s], inf: never"
+            )
+        if name != "age_s" and not np.isfinite(given).all():
+            raise ArrayError(f"{name} with NaN or infinity: needed are finite counts; leave the frame out")
 
 
 def why_refused(code: int, indices: NDArray[np.uint16], counts: NDArray[np.uint16], rows: int, cols: int) -> str:

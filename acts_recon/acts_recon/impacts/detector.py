@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
-from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of, require_times
+from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of, require_recovered
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
 from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
@@ -138,9 +138,10 @@ class ImpactDetector:
         Raises
         ------
         ArrayError
-            When image or sigma are of another kind or size, or the times are not finite or the duration is negative.
+            When an image is of another kind or size, or what is given not finite (but `age_s`), or a time negative.
         """
-        require_times(time_s, duration_s)
+        shape = self._geometry.rows, self._geometry.cols
+        require_recovered(shape, time_s, duration_s, image=image, sigma=sigma, age_s=age_s, measured=measured)
         if self._before_s is not None and not 0.0 <= time_s - self._before_s <= LONGEST_PAUSE_S:
             self.reset()
         before_s = time_s - duration_s if self._before_s is None or self._before_s == time_s else self._before_s

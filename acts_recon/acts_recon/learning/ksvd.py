@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
 from acts_recon.learning.ksvd_kernels import code_patches, update_atoms
+from acts_recon.learning.training_patches import require_patches
 
 
 @dataclass(frozen=True)
@@ -143,17 +144,12 @@ def learn_dictionary(
 
 def _checked(patches: NDArray[np.floating], config: KsvdConfig) -> NDArray[np.float32]:
     X = np.array(patches, dtype=np.float32)
-    if X.ndim != 2:
-        raise ArrayError(f"patches of shape {X.shape}: needed are (n, n_pixels)")
+    require_patches(X)
     if X.shape[0] < config.atoms:
         raise ArrayError(
             f"{X.shape[0]} patches for {config.atoms} atoms: give more frames, or learn fewer atoms "
             f"(patches with few pressed taxels and repeated ones are left out)"
         )
-    if not np.isfinite(X).all():
-        raise ArrayError("the patches hold NaN or infinity")
-    if not (np.linalg.norm(X, axis=1) > 0).all():
-        raise ArrayError("some patches are all 0; leave them out")
     return X
 
 

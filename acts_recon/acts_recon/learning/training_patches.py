@@ -71,13 +71,23 @@ def random_patches(
     return np.concatenate(kept)
 
 
+def require_patches(patches: NDArray[np.floating]) -> None:
+    """Raise `ArrayError` unless these are patches, shape (n, n_pixels), finite and none of them all 0."""
+    if patches.ndim != 2:
+        raise ArrayError(f"patches of shape {patches.shape}: needed are (n, n_pixels)")
+    if not np.isfinite(patches).all():
+        raise ArrayError("the patches hold NaN or infinity")
+    if not patches.any(axis=1).all():
+        raise ArrayError("some patches are all 0; leave them out")
+
+
 def prune_coherent(patches: NDArray[np.float32], limit: float) -> NDArray[np.bool_]:
     """Choose patches of which no two are nearly equal.
 
     Parameters
     ----------
     patches : np.ndarray [shape=(n, n_pixels), dtype=float32]
-        None of them all 0.
+        Finite, none of them all 0.
     limit : float
         Largest allowed coherence, ``|<a, b>|`` of unit-norm patches (paper, "Tactile Dictionary Learning").
 
@@ -85,7 +95,15 @@ def prune_coherent(patches: NDArray[np.float32], limit: float) -> NDArray[np.boo
     -------
     np.ndarray [shape=(n,), dtype=bool]
         True for the patches to keep: each whose coherence with every earlier kept one is at most `limit`.
+
+    Raises
+    ------
+    ArrayError
+        When `patches` are none, not finite or all 0, or the limit is not within 0 to 1.
     """
+    if not 0.0 <= limit <= 1.0:
+        raise ArrayError(f"limit = {limit}: allowed is 0 to 1")
+    require_patches(patches)
     unit = patches / np.linalg.norm(patches, axis=1, keepdims=True)
     n = unit.shape[0]
     keep = np.ones(n, dtype=bool)

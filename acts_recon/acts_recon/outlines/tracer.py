@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import TOUCH_COUNTS, ArrayGeometry
-from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, Response, force_table
-from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of, require_times
+from acts_recon.images import LONGEST_PAUSE_S, NOISE_COUNTS, PlacedSamples, borders_of, require_recovered
 from acts_recon.outlines.config import OutlinesConfig
 from acts_recon.outlines.contours import area, contours
 from acts_recon.outlines.edge_filter import EdgeFilter
@@ -149,7 +148,13 @@ class OutlineTracer:
         bool
             False where the frame is one for `step`: a contact is young, one has begun, ended or moved fast, or there
             was none.
+
+        Raises
+        ------
+        ArrayError
+            When the time or the image is not finite, or the image of another size.
         """
+        require_recovered(self._shape, end_s, 0.0, image=image)
         if not self._tracks or not self._follows(end_s):
             return False
         pressed = image > self._touch_counts
@@ -194,11 +199,9 @@ class OutlineTracer:
         Raises
         ------
         ArrayError
-            When frame or image are of another kind or size.
+            When frame or image are of another kind or size, or not finite.
         """
-        if image.shape != self._shape:
-            raise ArrayError(f"image {image.shape}: needed is {self._shape}")
-        require_times(end_s, duration_s)
+        require_recovered(self._shape, end_s, duration_s, image=image)
         places, placed_counts = self._samples.of(indices, counts)
         if not self._follows(end_s):
             self.reset()

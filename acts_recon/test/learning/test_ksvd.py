@@ -159,3 +159,22 @@ def test_no_two_kept_patches_look_alike() -> None:
     assert np.tril(np.abs(unit @ unit.T), -1).max() <= 0.995
     assert keep[0]
     assert not keep[40:].any()
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "words"),
+    [
+        (np.nan, 0.9, "NaN or infinity"),
+        (np.inf, 0.9, "NaN or infinity"),
+        (0.0, 0.9, "all 0"),
+        (1.0, np.nan, "limit = nan"),
+    ],
+)
+def test_patches_that_cannot_be_compared_are_refused(value: float, limit: float, words: str) -> None:
+    patches = np.random.default_rng(0).random((6, 16)).astype(np.float32)
+    patches[3] *= 0.0
+    patches[3] += value
+    with pytest.raises(ArrayError, match=words):
+        prune_coherent(patches, limit)
+    with pytest.raises(ArrayError, match="needed are"):
+        prune_coherent(patches[0], 0.9)

@@ -150,6 +150,21 @@ def test_a_duration_that_cannot_be_is_refused(duration_s: float) -> None:
         OutlineTracer(GEOMETRY).step(ALL, ALL % 10, 1.0, duration_s, np.zeros((32, 32), dtype=np.float32))
 
 
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_an_image_that_is_not_finite_is_refused_and_no_contact_is_forgotten(value: float) -> None:
+    tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
+    counts = disc(8, 8, 3)
+    for number in range(4):
+        traced(tracer, counts, 1e-3 * number)
+    wrong = counts.astype(np.float32)
+    wrong[8, 9] = value
+    with pytest.raises(ArrayError, match="image with NaN or infinity: needed are finite counts"):
+        tracer.step(ALL, counts.ravel(), 4e-3, 1e-3, wrong)
+    with pytest.raises(ArrayError, match="image with NaN or infinity: needed are finite counts"):
+        tracer.skip(4e-3, wrong)
+    assert [outline.number for outline in traced(tracer, counts, 5e-3)] == [1]
+
+
 def test_a_contact_keeps_its_number_and_two_have_two() -> None:
     tracer = OutlineTracer(GEOMETRY, RESPONSE, 40.0, 2.0)
     for number in range(8):
