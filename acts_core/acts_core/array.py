@@ -48,8 +48,9 @@ class ArrayGeometry:
 
     def __post_init__(self) -> None:
         for name, value in (("rows", self.rows), ("cols", self.cols)):
-            if not 1 <= value <= MAX_SIDE:
-                raise ArrayError(f"{name} = {value}: an array has 1 to {MAX_SIDE} {name}")
+            # A caller without types may give 8.0, which no index can be made of.
+            if not isinstance(value, (int, np.integer)) or not 1 <= value <= MAX_SIDE:
+                raise ArrayError(f"{name} = {value}: an array has 1 to {MAX_SIDE} {name}, a whole number")
         for name, pitch_m in (("pitch_m", self.pitch_m), ("row_pitch_m", self.pitch_y_m)):
             if not (np.isfinite(pitch_m) and pitch_m > 0):
                 raise ArrayError(f"{name} = {pitch_m}: the pitch is a positive number of metres")

@@ -37,7 +37,9 @@ def test_positions_and_taxels_are_inverse(rows: int, cols: int, row: float, col:
     assert geometry.col_of(geometry.x_m(col)) == pytest.approx(col, abs=1e-9)
 
 
-@pytest.mark.parametrize("wrong", [{"rows": 0}, {"cols": 65}, {"pitch_m": 0.0}, {"pitch_m": float("nan")}])
+@pytest.mark.parametrize(
+    "wrong", [{"rows": 0}, {"cols": 65}, {"rows": 8.0}, {"cols": np.nan}, {"pitch_m": 0.0}, {"pitch_m": float("nan")}]
+)
 def test_impossible_geometry_is_refused_by_name(wrong: dict[str, float]) -> None:
     with pytest.raises(ArrayError, match=next(iter(wrong))):
         ArrayGeometry(**wrong)  # type: ignore[arg-type]
