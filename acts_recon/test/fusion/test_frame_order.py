@@ -35,6 +35,15 @@ def test_boards_that_begin_anew_are_no_second_source(first: int, first_us: int) 
     assert changes == 0
 
 
+@pytest.mark.parametrize("early_us", [-300, -20, 0, 20, 300])
+def test_a_board_that_begins_anew_twice_at_once_is_no_second_source(early_us: int) -> None:
+    """As one whose supply fails while it starts: its third life comes by the number that the second one ended with."""
+    lives = (source(1000, 1_000_000, 600), source(0, 1000, 30), source(0, 1000 - early_us, 200))
+    anew, changes = followed([place for life in lives for place in life])
+    assert [number for number, is_anew in enumerate(anew) if is_anew] == [600, 630]
+    assert changes == 0
+
+
 @pytest.mark.parametrize(
     ("first", "first_us"),
     [(5, 900_000), (6, 5_300), (90_000, 5_300), (700, 70_000_000), (4, 5_300)],
