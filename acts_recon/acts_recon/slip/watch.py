@@ -128,6 +128,9 @@ class SlipWatch:
         self._results = np.zeros((len(patches), kernels.RESULTS))
         self._told_s = [-math.inf] * len(patches)
         self._time_s = -math.inf
+        # Between the two images before the newest one.
+        self._pace_s = math.inf
+        self._period_s = math.inf
         self._warm_up()
 
     def reset(self) -> None:
@@ -138,6 +141,7 @@ class SlipWatch:
         self._results.fill(0.0)
         self._told_s = [-math.inf] * len(self._told_s)
         self._time_s = -math.inf
+        self._pace_s = self._period_s = math.inf
 
     def step(
         self,
@@ -178,6 +182,7 @@ class SlipWatch:
                 )
         if not 0.0 <= time_s - self._time_s <= LONGEST_PAUSE_S:
             self.reset()
+        self._pace_s, self._period_s = self._period_s, time_s - self._time_s
         self._time_s = time_s
         kernels.update(time_s, values, ages, self._memory)
         kernels.watch(time_s, self._bounds, counts, self._memory, self._tuning, self._results)
@@ -202,6 +207,9 @@ class SlipWatch:
         sigmas = taxels / sd_taxels if sd_taxels > 0.0 else math.inf
         # After a gap the earlier image may be many windows old. In that time skin creeps farther than in one, but no
         # faster. Where frames come slowly all the time, a window is what lies between two of them.
+        if math.isinf(pace_s):
+            # The earlier image is the first of a touch: then it counts how the images before this one came.
+            pace_s = 0.0 if math.isinf(self._pace_s) else self._pace_s
         windows = max(elapsed_s / (_LONGEST_WINDOWS * max(config.slip_window_s, pace_s)), 1.0)
         return min(
             taxels / (windows * config.slip_distance_taxels),

@@ -216,6 +216,28 @@ def test_creep_is_no_slip_after_a_gap_but_slip_is(gap_s: float, rate_hz: float) 
     assert is_told(0.006)
 
 
+@pytest.mark.parametrize("before", [0, 100])
+def test_creep_is_no_slip_after_a_gap_that_follows_the_first_image_of_a_touch(before: int) -> None:
+    """`before` images of nothing come before it: without any nothing says how quickly images come."""
+
+    def is_told(moved_m: float) -> bool:
+        detector, rng = SlipDetector(SIDE, SIDE, PITCH_M), np.random.default_rng(5)
+        for number in range(before):
+            detector.step(1e-3 * number, noisy(press(3.4, 2.5, counts=0.0), rng))
+        detector.step(1e-3 * before, noisy(press(3.4, 2.5), rng))
+        return detector.step(1e-3 * before + 0.3, noisy(press(3.4, 2.5 + moved_m / PITCH_M), rng)).slipping
+
+    assert not is_told(0.3e-3)
+    assert is_told(1.8e-3)
+
+
+def test_of_slow_images_the_second_of_a_touch_may_be_slip() -> None:
+    detector = SlipDetector(SIDE, SIDE, PITCH_M)
+    told = [detector.step(k / 5.0, press(3.4, 3.0, counts=0.0)).slipping for k in range(3)]
+    told += [detector.step(k / 5.0, press(3.4, 3.0 + 0.08 * (k - 3))).slipping for k in (3, 4)]
+    assert told == [False] * 4 + [True]
+
+
 def test_a_lost_frame_of_a_slow_recording_hides_no_slip() -> None:
     detector, told = SlipDetector(SIDE, SIDE, PITCH_M), []
     for k in (0, 1, 2, 3, 4, 5, 7):
