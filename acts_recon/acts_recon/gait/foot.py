@@ -41,13 +41,15 @@ class _Crossing(NamedTuple):
 class _Stance(NamedTuple):
     """A foot that carries.
 
-    `lifted` is what pressed the foot before, while it was lifted; `bins` those of the stance, once it is over.
+    `lifted` is what pressed the foot before, while it was lifted; `bins` those of the stance, the last `_LONGEST_PATH`,
+    and `peak` the largest force of all, once it is over.
     """
 
     strike: _Crossing
     swing_s: float | None
     lifted: _Bin
-    bins: tuple[_Bin, ...]
+    bins: tuple[_Bin, ...] = ()
+    peak: float = -math.inf
 
 
 class _Phase(Enum):
@@ -136,9 +138,17 @@ class FootTracker:
         self._rise: _Crossing | None = None
         self._lifted_at: _Crossing | None = None
         self._lightest: _Bin | None = None
-        self._bins: deque[_Bin] = deque(maxlen=_LONGEST_PATH)
+        self._drop_path()
         self._stance: _Stance | None = None
         self._over: tuple[_Stance, _Crossing] | None = None
+
+    def _drop_path(self) -> None:
+        self._bins: deque[_Bin] = deque(maxlen=_LONGEST_PATH)
+        self._peak = -math.inf
+
+    def _keep(self, now: _Bin) -> None:
+        self._bins.append(now)
+        self._peak = max(self._peak, now.force)
 
     def _add(self, sample: _Bin) -> tuple[Step, ...]:
         pause_s = sample.time_s - self._newest_s
@@ -177,13 +187,13 @@ class FootTracker:
         if share < self.config.lifted_share:
             self._lift(_crossing(last, now, self.config.lifted_share, loads), now)
         else:
-            self._bins.append(now)
+            self._keep(now)
         return told
 
     def _look_lifted(self, last: _Bin, now: _Bin, share: float, loads: Loads) -> tuple[Step, ...]:
         if share < self.config.lifted_share:
             self._phase, self._rise = _Phase.LIFTED, None
-            self._bins.clear()
+            self._drop_path()
             if self._lightest is None or now.force < self._lightest.force:
                 self._lightest = now
             return self._confirmed(now.time_s)
@@ -191,7 +201,7 @@ class FootTracker:
             self._rise = _crossing(last, now, self.config.lifted_share, loads)
         # A swing ends where the force begins to rise, however slowly it does.
         told = self._confirmed(now.time_s if self._rise is None else self._rise.time_s)
-        self._bins.append(now)
+        self._keep(now)
         return told + self._load() if share > self.config.loaded_share else told
 
     def _load(self) -> tuple[Step, ...]:
@@ -203,21 +213,22 @@ class FootTracker:
         swing_s = rise.time_s - self._lifted_at.time_s if self._lifted_at is not None else None
         if self._over is not None and swing_s is not None and swing_s < self.config.shortest_s:
             self._stance, self._over = self._over[0], None
-            self._bins.extendleft(reversed(self._stance.bins))
+            self._bins = deque((*self._stance.bins, *self._bins), maxlen=_LONGEST_PATH)
+            self._peak = max(self._peak, self._stance.peak)
             return ()
         told = self._confirmed(math.inf)
-        self._stance = _Stance(rise, swing_s, self._lightest, ())
+        self._stance = _Stance(rise, swing_s, self._lightest)
         return told
 
     def _lift(self, crossing: _Crossing, now: _Bin) -> None:
         stance = self._stance
         is_step = stance is not None and crossing.time_s - stance.strike.time_s >= self.config.shortest_s
         if stance is not None and is_step:
-            self._over = stance._replace(bins=tuple(self._bins)), crossing
+            self._over = stance._replace(bins=tuple(self._bins), peak=self._peak), crossing
         if stance is None or is_step:
             self._lifted_at = crossing
         self._phase, self._stance, self._rise, self._lightest = _Phase.LIFTED, None, None, now
-        self._bins.clear()
+        self._drop_path()
 
     def _confirmed(self, now_s: float) -> tuple[Step, ...]:
         """The step that is over, once the foot has been lifted for long enough."""
@@ -239,7 +250,7 @@ def _step(stance: _Stance, toe_off: _Crossing) -> Step | None:
         *stance.strike,
         *toe_off,
         stance.swing_s,
-        float(force.max()),
+        stance.peak - stance.lifted.force,
         bins[:, 0],
         force,
         moment_x / force,

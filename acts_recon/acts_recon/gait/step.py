@@ -28,7 +28,7 @@ class Step:
     peak_force : float
         Above that under the lifted foot, in the unit that was given.
     time_s, force : np.ndarray [shape=(n,), dtype=float64]
-        From strike to toe off; the force likewise.
+        From strike to toe off, of a stance of minutes the last one; the force likewise.
     x_m, y_m : np.ndarray [shape=(n,), dtype=float64]
         Path of the centre of pressure across and along the foot [m]; what presses the lifted foot is taken off.
     """

@@ -77,6 +77,21 @@ def test_what_has_been_learnt_is_kept_while_standing_for_long() -> None:
     assert len(steps) == pytest.approx(expected, abs=1)
 
 
+@pytest.mark.parametrize("dip", [False, True])
+def test_the_peak_of_a_foot_that_stands_for_minutes_is_the_largest_force_of_all(dip: bool) -> None:
+    """Of the path the last minute is kept; `dip`: the foot is lifted for too short a time to be a step."""
+    time_s = times_s(100.0, 190.0)
+    stands = (time_s > 12.0) & (time_s < 180.0)
+    force = np.where(stands, 1.0, walked(time_s))
+    force[(time_s > 20.0) & (time_s < 21.0)] = 1.3
+    if dip:
+        force[(time_s > 100.0) & (time_s < 100.03)] = 0.0
+    (step,) = [one for one in steps_of(time_s, force) if one.stance_s > 100.0]
+    assert step.peak_force == pytest.approx(1.3, rel=0.02)
+    assert step.time_s.size == step.force.size == 6000
+    assert step.toe_off_s - 0.05 < step.time_s[-1] <= step.toe_off_s
+
+
 def test_a_step_is_told_soon_after_the_foot_was_lifted() -> None:
     tracker, time_s = FootTracker(), times_s(100.0)
     delays_s = [
