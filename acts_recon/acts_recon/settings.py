@@ -95,7 +95,8 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
     )
     image_rate_hz: float = setting(
         30.0,
-        "largest rate of the topics image and contacts_view, and of those that begin with view/ [Hz]",
+        "largest rate of the topics image and contacts_view, and of those that begin with view/, but for "
+        "view/contact_series with 1024 contacts [Hz]",
         minimum=0.1,
         maximum=1000.0,
         changeable=Changeable.RUNNING,

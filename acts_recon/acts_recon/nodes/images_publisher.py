@@ -16,7 +16,7 @@ from acts_recon.images import mono16, rgb8
 from acts_recon.methods import Recovery
 from acts_recon.nodes.age_publisher import AgePublisher
 from acts_recon.nodes.frame_publisher import FramePublisher, RecoveredFrame
-from acts_recon.nodes.series_publisher import SeriesPublisher
+from acts_recon.nodes.series_publisher import LONGEST, SeriesPublisher
 from acts_recon.settings import ReconstructionConfig
 from acts_ros import qos
 from acts_ros.messages import ImageFields, write_image
@@ -28,7 +28,7 @@ class ImagesPublisher(FramePublisher):
 
     ``image_raw`` (sensor_msgs/Image, mono16, counts), ``confidence`` (mono8, with the method ``fusion``), and, when
     they are due, ``image`` (rgb8), ``view/image_raw``, ``view/confidence``, ``view/age`` (32FC1, see `AgePublisher`)
-    and ``view/contact_series`` (acts_msgs/ContactSeries).
+    and ``view/contact_series`` (acts_msgs/ContactSeries; also as soon as it is full).
 
     Parameters
     ----------
@@ -87,7 +87,8 @@ class ImagesPublisher(FramePublisher):
             self._publish_confidence(self._view_confidence_publisher, stamp_ns, frame_id)
         if "view/age" in due:
             self._ages.publish(stamp_ns, frame_id, self._recovery, frame.duration_s)
-        if "view/contact_series" in due:
+        # Where viewers get few messages, or frames are many, sooner: no contact is left out.
+        if "view/contact_series" in due or len(self._series) == LONGEST:
             self._series.publish(frame_id)
         if "image" in due:
             self._publish_view(stamp_ns, frame_id)

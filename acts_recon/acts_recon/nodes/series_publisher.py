@@ -17,7 +17,9 @@ from acts_ros import qos
 from acts_ros.messages import ContactFields, SeriesFields, write_series
 from acts_ros.publishers import published
 
-_LONGEST = 1024
+LONGEST = 1024
+"""Contacts in a message at most."""
+
 # What the message holds: a stream whose numbers are no count of its frames, as of nanoseconds, misses more.
 _MOST_MISSING = 2**32 - 1
 
@@ -27,6 +29,8 @@ class SeriesPublisher:
 
     A subscriber of ``contact`` wakes up for each of a thousand contacts a second; one that only plots them does as well
     with thirty messages a second.
+
+    It has a length, that of what is kept; `LONGEST` is the most that a message holds.
 
     Parameters
     ----------
@@ -46,6 +50,9 @@ class SeriesPublisher:
         self.is_wanted = False
         """Whether somebody listens."""
 
+    def __len__(self) -> int:
+        return len(self._stamps_ns)
+
     def look_for_subscribers(self) -> None:
         """To be called now and then."""
         is_wanted = self._publisher.get_subscription_count() > 0
@@ -54,7 +61,7 @@ class SeriesPublisher:
         self.is_wanted = is_wanted
 
     def add(self, stamp_ns: int, sequence: int, contact: Contact) -> None:
-        """Keep a contact that has just been published.
+        """Keep a contact that has just been published; with one too many those before are dropped, and missing.
 
         Parameters
         ----------
@@ -69,8 +76,8 @@ class SeriesPublisher:
             self._numbers = SequenceNumbers()
             self._clear()
         dropped = 0
-        if len(self._stamps_ns) == _LONGEST:
-            dropped = _LONGEST + sum(self._missing)
+        if len(self) == LONGEST:
+            dropped = LONGEST + sum(self._missing)
             self._clear()
         self._stamps_ns.append(stamp_ns)
         self._force_n.append(contact.force_n)

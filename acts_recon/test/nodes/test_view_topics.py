@@ -75,6 +75,19 @@ def test_viewers_get_every_contact_in_a_few_messages(
         begin += len(these)
 
 
+def test_no_contact_is_lost_where_viewers_get_few_messages(make_bench: Callable[..., Bench]) -> None:
+    """Of ten thousand contacts in ten seconds a message can hold a tenth: there are more messages then."""
+    bench = make_bench(43, image_rate_hz=0.1)
+    images = publisher_of(bench.node, ImagesPublisher)
+    series = bench.listen(ContactSeries, "view/contact_series", qos.VIEW)
+    bench.until(lambda: images._series.is_wanted)
+    for sequence in range(1, 2500):
+        bench.take(sequence, np.zeros((32, 32)))
+    bench.until(lambda: sum(len(one.age) for one in series) >= 2048)
+    assert sum(len(one.age) for one in series) + len(images._series) == 2499
+    assert not any(any(one.missing) for one in series)
+
+
 def test_contacts_that_are_dropped_because_nobody_publishes_them_are_missing(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(43)
     series = SeriesPublisher(bench.node)
