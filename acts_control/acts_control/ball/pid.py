@@ -155,6 +155,10 @@ class BallPid:
             Tilt to aim for [rad].
         """
         config, state = self.config, self.state
+        # What was integrated before ki was set to 0, or the limit was lowered, ends with it.
+        most = config.max_integral_m_s2 if config.ki > 0.0 else 0.0
+        state.integral_x_m_s2 = _within(state.integral_x_m_s2, most)
+        state.integral_y_m_s2 = _within(state.integral_y_m_s2, most)
         speed = hypot(reference.vx_m_s, reference.vy_m_s)
         push = resistance_per_speed(state.resistance, speed)
         resist_x, resist_y = push * reference.vx_m_s, push * reference.vy_m_s
@@ -174,12 +178,15 @@ class BallPid:
         state.saturated = hypot(*wanted) >= self.max_tilt_rad * (1.0 - 1e-9)
         # Anti-windup: no integration where the plate cannot follow or the ball is still far away.
         if not state.saturated and hypot(error_x, error_y) < config.integral_zone_m:
-            most = config.max_integral_m_s2
-            state.integral_x_m_s2 = min(max(state.integral_x_m_s2 + config.ki * error_x * dt, -most), most)
-            state.integral_y_m_s2 = min(max(state.integral_y_m_s2 + config.ki * error_y * dt, -most), most)
+            state.integral_x_m_s2 = _within(state.integral_x_m_s2 + config.ki * error_x * dt, most)
+            state.integral_y_m_s2 = _within(state.integral_y_m_s2 + config.ki * error_y * dt, most)
             if speed > RESISTANCE_SPEED_M_S:
                 lag = (error_x * reference.vx_m_s + error_y * reference.vy_m_s) / speed
                 state.resistance = min(
                     max(state.resistance + config.resistance_adaptation * lag * dt, 0.0), _MOST_RESISTANCE
                 )
         return wanted
+
+
+def _within(value: float, most: float) -> float:
+    return min(max(value, -most), most)

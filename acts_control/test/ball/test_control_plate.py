@@ -4,6 +4,7 @@
 """Tilt and acceleration, the PID, and the limits of the tilt's motion."""
 
 import itertools
+from dataclasses import replace
 from math import hypot, radians, sin, sqrt
 
 import pytest
@@ -87,6 +88,21 @@ def test_the_integral_removes_a_standing_error_and_is_bounded() -> None:
     assert pid.state.integral_x_m_s2 == 0.1
     pid.reset()
     assert pid.state.integral_x_m_s2 == 0.0
+
+
+@pytest.mark.parametrize(("changed", "left"), [({"ki": 0.0}, 0.0), ({"max_integral_m_s2": 0.05}, 0.05)])
+@pytest.mark.parametrize("x_m", [-0.002, -0.03])
+def test_what_was_integrated_ends_with_the_setting_that_allowed_it(
+    changed: dict[str, float], left: float, x_m: float
+) -> None:
+    """Also where the ball is too far away for anything to be integrated."""
+    config = PidConfig(max_integral_m_s2=0.1)
+    pid = BallPid(config, LIMIT)
+    for _ in range(10_000):
+        pid.step(Ball(-0.002, 0.0, 0.0, 0.0), CENTRE, LEVEL, 0.004)
+    pid.config = replace(config, **changed)
+    pid.step(Ball(x_m, 0.0, 0.0, 0.0), CENTRE, LEVEL, 0.004)
+    assert pid.state.integral_x_m_s2 == left
 
 
 def test_a_ball_that_lags_behind_rolls_harder_than_was_thought() -> None:
