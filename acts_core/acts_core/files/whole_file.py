@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -24,7 +25,7 @@ def write_whole(
     Parameters
     ----------
     path : Path
-        The file; a link stays one.
+        The file; a link stays one, and a file that was there keeps its permissions.
     error : type
         What to raise.
     hint : str
@@ -46,6 +47,8 @@ def write_whole(
         if makes_folder:
             target.parent.mkdir(parents=True, exist_ok=True)
         with fresh.open("wb") as file:
+            if target.exists():
+                os.fchmod(file.fileno(), stat.S_IMODE(target.stat().st_mode))
             yield file
             # Before the rename, as a power failure could otherwise lose both files.
             file.flush()

@@ -30,6 +30,18 @@ def test_what_is_interrupted_leaves_what_was_there_and_nothing_else(tmp_path: Pa
     assert path.read_bytes() == b"first"
 
 
+@pytest.mark.parametrize("mode", [0o600, 0o664, 0o444])
+def test_a_file_that_was_there_keeps_its_permissions(mode: int, tmp_path: Path) -> None:
+    path, link = tmp_path / "text", tmp_path / "link"
+    path.write_bytes(b"first")
+    path.chmod(mode)
+    link.symlink_to(path)
+    with write_whole(link, error=ActsError) as file:
+        file.write(b"second")
+    assert path.read_bytes() == b"second"
+    assert path.stat().st_mode & 0o777 == mode
+
+
 def test_two_threads_that_write_a_file_at_once_leave_a_whole_one(tmp_path: Path) -> None:
     path = tmp_path / "text"
     has_begun, may_end = threading.Event(), threading.Event()
