@@ -23,6 +23,11 @@ _STALL_S = 1.0
 _LOOK_PERIOD_S = 0.1
 
 
+def boot_time_s() -> float:
+    """The steady clock that, unlike `time.monotonic`, also runs while the machine sleeps: CLOCK_BOOTTIME [s]."""
+    return time.clock_gettime(time.CLOCK_BOOTTIME)
+
+
 def steady_timer(node: Node, period_s: float, callback: Callable[[], Any]) -> Timer:
     """Create a timer on the steady clock.
 
@@ -110,20 +115,15 @@ class Stalls:
         """
         # Nothing is noted here: the executor has not looked meanwhile, and what waits for it is as old as before. Where
         # it looks just now, it has noted how long it stood still before it says when it has looked.
-        now_s, looked_s = _now_s(), self._looked_s
+        now_s, looked_s = boot_time_s(), self._looked_s
         ended_s, stood_still_s = self._ended_s, self._stood_still_s
         if math.isfinite(looked_s) and now_s - looked_s > self._longest_s:
             ended_s, stood_still_s = now_s, now_s - looked_s
         return f"this program stood still for {stood_still_s:.1f} s" if ended_s >= asked_s else ""
 
     def _look(self) -> float:
-        now_s, before_s = _now_s(), self._looked_s
+        now_s, before_s = boot_time_s(), self._looked_s
         if math.isfinite(before_s) and now_s - before_s > self._longest_s:
             self._ended_s, self._stood_still_s = now_s, now_s - before_s
         self._looked_s = now_s
         return now_s
-
-
-def _now_s() -> float:
-    # Unlike that of `time.monotonic`, this clock also runs while the machine sleeps: a laptop that is opened again.
-    return time.clock_gettime(time.CLOCK_BOOTTIME)

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -23,6 +22,7 @@ from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.skin_topics import SAMPLES
 from acts_ros.bags.writing import BagWriter
+from acts_ros.clocks import boot_time_s
 from acts_ros.messages import sequence_of
 
 try:
@@ -53,7 +53,7 @@ class TopicRecord:
     lost : int or None
         Messages that the middleware reports as lost; None when it does not report.
     first_s, last_s : float
-        Times of reception of the first and the last message, CLOCK_MONOTONIC [s].
+        Times of reception of the first and the last message, CLOCK_BOOTTIME [s]: a machine that sleeps is a pause.
     """
 
     topic: str
@@ -218,7 +218,7 @@ class Recorder:
     def _on_message(self, record: TopicRecord, handle: Any, data: bytes) -> None:
         self._bag.write(handle, data)
         record.number(data)
-        record.add(time.monotonic())
+        record.add(boot_time_s())
 
 
 def _on_lost(record: TopicRecord, status: Any) -> None:

@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+import time
+from types import SimpleNamespace
+
 import pytest
 
-from acts_ros.bags.recorder import TopicRecord
+from acts_ros.bags.recorder import Recorder, TopicRecord
 
 
 @pytest.mark.parametrize(
@@ -46,3 +49,19 @@ def test_pauses_in_the_midst_of_a_regular_topic_are_found_the_longest_first() ->
 )
 def test_what_is_no_pause_is_not_told(times_s: tuple[float, ...]) -> None:
     assert record_of(*times_s).pauses() == []
+
+
+def test_a_machine_that_sleeps_is_a_pause(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Of these, Linux lets only this one run meanwhile.
+    clocks_s = {time.CLOCK_MONOTONIC: 100.0, time.CLOCK_BOOTTIME: 100.0}
+    monkeypatch.setattr(time, "clock_gettime", lambda clock: clocks_s[clock])
+    monkeypatch.setattr(time, "monotonic", lambda: clocks_s[time.CLOCK_MONOTONIC])
+    record = TopicRecord("/plate/contact", "acts_msgs/msg/Contact")
+    recorder = SimpleNamespace(_bag=SimpleNamespace(write=lambda *_: None))
+    for number in range(100):
+        if number == 50:
+            clocks_s[time.CLOCK_BOOTTIME] += 600.0
+        for clock in clocks_s:
+            clocks_s[clock] += 1 / 64
+        Recorder._on_message(recorder, record, None, b"")  # type: ignore[arg-type]
+    assert record.pauses() == [(100.0 + 50 / 64, 600.0 + 1 / 64)]

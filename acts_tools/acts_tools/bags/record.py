@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 from collections.abc import Mapping
 from contextlib import closing
 from datetime import datetime
@@ -89,6 +88,7 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags.recorder import Recorder
     from acts_ros.bags.writing import BagWriter, require_new
+    from acts_ros.clocks import boot_time_s
     from acts_ros.executor import spin_for
     from acts_tools.running.near_names import NOTICE_S, near_topic
     from acts_tools.running.node import command_node
@@ -104,18 +104,18 @@ def record(path: Path, topics: list[str] | None, duration_s: float | None) -> in
     ):
         recorder = Recorder(node, bag, topics, _say)
         _say(f"recording to {path}, Ctrl-C ends it")
-        started_s = time.monotonic()
+        started_s = boot_time_s()
         is_told = False
         with closing(recorder):
-            while not stop.is_set and (duration_s is None or time.monotonic() - started_s < duration_s):
-                if not is_told and time.monotonic() - started_s > NOTICE_S:
+            while not stop.is_set and (duration_s is None or boot_time_s() - started_s < duration_s):
+                if not is_told and boot_time_s() - started_s > NOTICE_S:
                     is_told = True
                     for topic in recorder.missing():
                         _say(f"not there yet: {topic}, no publisher found{near_topic(node, topic)}")
                 recorder.discover()
                 spin_for(executor, _TURN_S)
                 bag.flush()
-            ended_s = time.monotonic()
+            ended_s = boot_time_s()
         hints = {topic: near_topic(node, topic) for topic in recorder.missing()}
     summarise(recorder, bag, hints, started_s, ended_s)
     return 0 if recorder.is_complete else 1
@@ -132,7 +132,7 @@ def summarise(recorder: Recorder, bag: BagWriter, hints: Mapping[str, str], star
     hints : mapping of str to str
         Of each topic that never appeared, what may have been meant.
     started_s, ended_s : float
-        CLOCK_MONOTONIC [s].
+        CLOCK_BOOTTIME [s].
     """
     records = sorted(recorder.records.values(), key=lambda record: record.topic)
     width = max((len(record.topic) for record in records), default=0)
