@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -86,17 +86,17 @@ def run(arguments: argparse.Namespace) -> int:
     output = _new_output(arguments)
     # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.topics import Choice
-    from acts_tools.export.writing import write_bags
+    from acts_tools.export.writing import naming, write_bags
 
     # Learning has no use for a NaN: it would spread into the statistics of the dataset.
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
-    try:
-        with _folder_beside(output) as folder:
-            begun = folder / output.name
-            write_bags(bags, kind, choice, arguments.task, begun)
+    with ExitStack() as made:
+        with naming(output):
+            folder = made.enter_context(_folder_beside(output))
+        begun = folder / output.name
+        write_bags(bags, kind, choice, arguments.task, begun, output)
+        with naming(output):
             begun.rename(output)
-    except OSError as error:
-        raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
     print(f"written to {output}")
     return 0
 

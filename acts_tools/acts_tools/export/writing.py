@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from acts_core.errors import RecordingError
@@ -20,7 +21,16 @@ _NOTES_FILE = "notes.txt"
 _TABLES = {"csv": write_csv, "npz": write_npz, "parquet": write_parquet}
 
 
-def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path: Path) -> None:
+@contextmanager
+def naming(output: Path) -> Iterator[None]:
+    """Say of files that cannot be written what they are of."""
+    try:
+        yield
+    except OSError as error:
+        raise RecordingError(f"'{output}' cannot be written: {error.strerror or error}") from error
+
+
+def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path: Path, output: Path) -> None:
     """Write bags, one of them unless the format takes several, with what is to be noted of them.
 
     Parameters
@@ -34,13 +44,16 @@ def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path:
         Of a LeRobot dataset: what is done in the bags.
     path : Path
         What is made: a file of npz, a folder of the others.
+    output : Path
+        Where it will be, for messages.
 
     Raises
     ------
     RecordingError
-        A bag cannot be read, has nothing of the choice, or a layout is chosen that nothing is recovered with.
+        A bag cannot be read, has nothing of the choice, or a layout is chosen that nothing is recovered with; or it
+        cannot be written.
     OSError
-        It cannot be written.
+        The user cannot be told, as where the reader of standard output has ended.
     """
     dataset: LeRobotWriter | None = None
     notes: list[str] = []
@@ -53,17 +66,19 @@ def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path:
                     f"--layout {choice.layout} is of no use: it is for what is recovered from samples, and "
                     f"images and contacts of {recording.skin or '/'} are exported as they were recorded"
                 )
-            if kind == "lerobot":
-                dataset = dataset or LeRobotWriter(path, int(choice.rate_hz), task)
-                n_rows = dataset.add(recording)
-            else:
-                n_rows = _TABLES[kind](recording, path)
+            with naming(output):
+                if kind == "lerobot":
+                    dataset = dataset or LeRobotWriter(path, int(choice.rate_hz), task)
+                    n_rows = dataset.add(recording)
+                else:
+                    n_rows = _TABLES[kind](recording, path)
             _tell(bag, recording, n_rows)
             notes += [f"{bag.resolve().name}: {sentence}\n" for sentence in recording.notes()]
-    if notes and kind != "npz":
-        (path / _NOTES_FILE).write_text("".join(notes))
-    if dataset is not None:
-        dataset.close()
+    with naming(output):
+        if notes and kind != "npz":
+            (path / _NOTES_FILE).write_text("".join(notes))
+        if dataset is not None:
+            dataset.close()
 
 
 def _tell(bag: Path, recording: Recording, n_rows: int) -> None:

@@ -1,0 +1,59 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is said where the tables cannot be written, and where the user cannot be told of them."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from test_export import image, pressed, write_bag
+
+from acts_tools.cli import main
+from acts_tools.export import writing
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    return write_bag(tmp_path / "touch", *(("/plate/image_raw", image(10 * n, pressed(n))) for n in range(6)))
+
+
+@pytest.mark.parametrize(
+    ("stream", "told"), [("/dev/full", "error: No space left on device: make room and try again\n"), ("pipe", "")]
+)
+def test_an_output_that_the_user_cannot_be_told_of_is_not_said_to_be_unwritable(
+    stream: str,
+    told: str,
+    bag: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    if stream == "pipe":
+        reader, writer = os.pipe()
+        os.close(reader)
+    else:
+        writer = os.open(stream, os.O_WRONLY)
+    # Of a file of Python's the end would write what is left once more.
+    with monkeypatch.context() as patch, suppress(OSError), os.fdopen(writer, "w", buffering=1) as nowhere:
+        patch.setattr(sys, "stdout", nowhere)
+        assert main(["export", str(bag), "--to", "csv", "-o", str(tmp_path / "out")]) == 1
+    assert capfd.readouterr().err == told
+    assert list(tmp_path.iterdir()) == [bag]
+
+
+def test_what_cannot_be_written_is_named(
+    bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(*_: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setitem(writing._TABLES, "csv", fail)
+    assert main(["export", str(bag), "--to", "csv", "-o", str(tmp_path / "out")]) == 1
+    assert f"error: '{tmp_path / 'out'}' cannot be written: No space left on device\n" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == [bag]
