@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,17 +18,30 @@ import numpy as np
 
 from acts_core.errors import RecordingError
 from acts_core.files import write_whole
+from acts_tools.progress import tell
+
+_DIGEST = "digest"
 
 
 def read_stamped(path: Path, settings: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The content of a JSON file that was made with the same settings; None where there is none."""
+    """The content of a JSON file that was made with the same settings; None where there is none.
+
+    Nor where it was changed since: that is told.
+    """
     try:
         found = json.loads(path.read_text())
     except (OSError, ValueError):
         return None
     if not isinstance(found, dict) or any(found.get(name) != value for name, value in settings.items()):
         return None
+    if found.pop(_DIGEST, "") != _digest(json.dumps(found)):
+        tell(f"{path}: was changed since it was written, and is made anew", sys.stderr)
+        return None
     return found
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def write_stamped(path: Path, content: Mapping[str, Any]) -> None:
@@ -38,7 +53,7 @@ def write_stamped(path: Path, content: Mapping[str, Any]) -> None:
         When it cannot be written.
     """
     try:
-        text = json.dumps(content, allow_nan=False)
+        text = json.dumps({**content, _DIGEST: _digest(json.dumps(content))}, allow_nan=False)
     except ValueError as error:
         raise RecordingError(f"{path}: a number is not finite ({error}); please report this") from error
     with write_whole(path, error=RecordingError, makes_folder=True) as file:

@@ -93,6 +93,22 @@ def test_a_figure_is_not_measured_again(tmp_path: Path, capsys: pytest.CaptureFi
     assert told == [False, True, False, False, False]
 
 
+@pytest.mark.parametrize("panels", [[], [{"title": "no curves", "picture": {"values": []}}], "none", None])
+def test_a_figure_whose_file_was_changed_is_made_anew(
+    panels: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words, path = ["figures", "4D", "--out", str(tmp_path)], tmp_path / "fig_4d.json"
+    assert main(words) == 0
+    made = path.read_text()
+    path.write_text(json.dumps({**json.loads(made), "panels": panels}))
+    capsys.readouterr()
+    assert main(words) == 0
+    told = capsys.readouterr()
+    assert "measured in" in told.out
+    assert f"{path}: was changed since it was written, and is made anew" in told.err
+    assert path.read_text() == made
+
+
 def test_rough_numbers_do_not_replace_good_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for more in ([], ["--fast"]):
