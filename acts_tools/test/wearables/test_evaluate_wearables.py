@@ -49,6 +49,15 @@ def test_an_untouched_skin_is_the_same_whichever_others_are_watched(tmp_path: Pa
     assert told[0] == told[1]
 
 
+def test_noise_that_an_untouched_skin_cannot_be_calibrated_with_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["evaluate", "wearables", "--scene", "--untouched", "end_effector", "--minutes", "0.02"]
+    assert main([*words, "--noise-counts", "100"]) == 1
+    told = capsys.readouterr().err
+    assert (
+        "error: --noise-counts 100: by so much noise a driver takes the untouched skin end_effector for touched" in told
+    )
+
+
 def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["evaluate", "wearables", "--scene", "--untouched"]) == 1
     assert "--scene and --untouched name nothing; name a scene or a skin" in capsys.readouterr().err

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.sampling import MEASUREMENT_US, SamplingConfig
 from acts_core.skin import layout
@@ -65,6 +66,11 @@ def watch_untouched(
     rng : np.random.Generator
     show : callable
         Called with the number of seconds so far.
+
+    Raises
+    ------
+    SettingsError
+        With so much noise the driver takes the untouched skin for a touched one.
     """
     arranged = layout(layout_name)
     watcher = Watcher(arranged, noise_counts)
@@ -83,7 +89,14 @@ def watch_untouched(
         ends = [resting.counts(second + more).reshape(rows, cols) for more in (0, 1)]
         frames = np.rint(ends).astype(np.uint16)
         if second == _CALIBRATED_AFTER_S:
-            tracker.calibrate()
+            try:
+                tracker.calibrate()
+            except CalibrationError as error:
+                raise SettingsError(
+                    f"--noise-counts {noise_counts:g}: by so much noise a driver takes the untouched skin {layout_name}"
+                    " for touched, and does not calibrate it; give less, or leave untouched skins out by --untouched "
+                    "without names"
+                ) from error
             calibrated = ends[0]
         is_calibrated = second >= _CALIBRATED_AFTER_S
         if is_calibrated:
