@@ -10,7 +10,7 @@ python3 examples/read_board.py /dev/ttyUSB0 --ascii 16 16          # lines of te
 from __future__ import annotations
 
 import argparse
-import contextlib
+import signal
 import sys
 import time
 
@@ -44,7 +44,7 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
     contact: Contact | None = None
     begin_s = told_s = time.monotonic()
     frames = 0
-    with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C ends it, too
+    try:
         while (now_s := time.monotonic()) < begin_s + seconds:
             # At most 0.1 s, then empty. PortError, should the board be unplugged; open() may then be tried again.
             for frame in decoder.feed(source.read()):
@@ -62,6 +62,8 @@ def read(source: SerialSource, decoder: RasterDecoder | StreamDecoder, seconds: 
             if now_s >= told_s + 1.0:
                 told_s = now_s
                 tell(decoder, frames, contact)
+    except KeyboardInterrupt:  # Ctrl-C ends it, too; once more changes nothing
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     if frames == 0:
         sys.exit(f"error: no frame from {source.name} in {min(seconds, time.monotonic() - begin_s):.2g} s")
     tell(decoder, frames, contact)

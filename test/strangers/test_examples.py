@@ -150,6 +150,28 @@ def test_a_board_that_is_no_more_listened_to_is_told_of_at_the_end(tmp_path: Pat
     assert "frames, 0 packets damaged" in rest.splitlines()[-1]
 
 
+def test_a_second_ctrl_c_changes_nothing() -> None:
+    code = (
+        "import signal, sys\n"
+        f"sys.path.insert(0, {str(EXAMPLES)!r})\n"
+        "import read_board\n"
+        "class Source:\n"
+        "    name = 'port'\n"
+        "    def read(self):\n"
+        "        signal.raise_signal(signal.SIGINT)\n"
+        "class Decoder:\n"
+        "    def feed(self, data):\n"
+        "        return []\n"
+        "try:\n"
+        "    read_board.read(Source(), Decoder(), 60.0)\n"
+        "finally:\n"
+        "    signal.raise_signal(signal.SIGINT)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 1
+    assert re.fullmatch(r"error: no frame from port in \S+ s\n", done.stderr)
+
+
 @pytest.mark.parametrize("protocol", ["binary", "raster_ascii"])
 def test_a_board_is_read_over_serial(run: Run, tmp_path: Path, protocol: str) -> None:
     words = ["--ascii", "16", "16"] if protocol == "raster_ascii" else []
