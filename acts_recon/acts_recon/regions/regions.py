@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import Layout, RegionContact, Response, Vector, force_table
-from acts_recon.images import NOISE_COUNTS
+from acts_recon.images import NOISE_COUNTS, require_recovered
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
 from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
@@ -121,12 +121,13 @@ class Regions:
         Raises
         ------
         ArrayError
-            When an image has another shape or type.
+            When an image has another shape or type, or it or the time is not finite.
         """
         if image.shape != self._shape or image.dtype != np.float32:
             raise ArrayError(
                 f"an image of shape {image.shape}, {image.dtype}: needed is {self._shape}, float32 (counts)"
             )
+        require_recovered(self._shape, time_s, 0.0, image=image)
         results, regions = self._results, self._regions
         touched = kernels.find_regions(
             image,
@@ -150,8 +151,8 @@ class Regions:
         return regions
 
     def _look_for_slip(self, time_s: float, values: NDArray[np.float32], age_s: NDArray[np.float32] | None) -> None:
-        self._slip_s = time_s
         found = self._watch.step(time_s, values, self._results[self._watched, kernels.COUNTS], age_s)
+        self._slip_s = time_s
         for p, slip in zip(self._watched.tolist(), found, strict=True):
             self._slips[p] = slip
 

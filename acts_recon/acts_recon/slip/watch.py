@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
-from acts_recon.images import LONGEST_PAUSE_S
+from acts_recon.images import LONGEST_PAUSE_S, require_recovered
 from acts_recon.slip import watch_kernels as kernels
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
@@ -172,7 +172,7 @@ class SlipWatch:
         Raises
         ------
         ArrayError
-            When an image has another shape or type.
+            When an image has another shape or type, or it or the time is not finite.
         """
         ages = self._no_age if age_s is None else age_s
         for given in (values, ages):
@@ -180,6 +180,8 @@ class SlipWatch:
                 raise ArrayError(
                     f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
                 )
+        # What is kept of them would tell of slip in all that follows.
+        require_recovered(self._shape, time_s, 0.0, image=values, age_s=age_s)
         if not 0.0 <= time_s - self._time_s <= LONGEST_PAUSE_S:
             self.reset()
         self._pace_s, self._period_s = self._period_s, time_s - self._time_s

@@ -225,3 +225,21 @@ def test_images_of_another_kind_are_refused() -> None:
     for wrong in (np.zeros((8, 8), np.float32), np.zeros((32, 32))):
         with pytest.raises(ArrayError, match=r"needed is \(32, 32\), float32"):
             hand_regions().step(0.0, wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("time_s", "count"), [(np.nan, 0.0), (np.inf, 0.0), (0.06, np.nan), (0.06, np.inf)])
+def test_times_and_images_that_are_not_finite_are_refused_and_leave_no_trace(time_s: float, count: float) -> None:
+    regions, undisturbed = (Regions(HAND, RESPONSE, slip_rate_hz=0.0) for _ in range(2))
+    patch = HAND.patches[0]
+    for number in range(90):
+        image = press(patch, 1.5, 1.2 + 0.02 * number)
+        if number == 60:
+            wrong = image.copy()
+            wrong[0, 0] += np.float32(count)
+            with pytest.raises(ArrayError, match="needed are finite"):
+                regions.step(time_s, wrong)
+            for values, age_s in ((wrong, np.zeros_like(image)), (image, np.full_like(image, count))):
+                if np.isnan(count):
+                    with pytest.raises(ArrayError, match="needed"):
+                        regions.step(time_s, image, values, age_s)
+        assert list(regions.step(1e-3 * number, image)) == list(undisturbed.step(1e-3 * number, image))
