@@ -1,8 +1,9 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""`make lint` checks the types of tests, too: in a checkout of one package."""
+"""`make lint` checks the types of tests, too: in a checkout of one package. What pages have one copy passes as well."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -43,3 +44,14 @@ def test_a_mistake_is_told_wherever_python_is(tmp_path: Path) -> None:
     assert told.returncode == 1, told
     errors = {line.split(":")[0] for line in told.stdout.splitlines() if ": error: " in line}
     assert errors == {name for name, text in FILES.items() if text not in ("", RIG)}, told
+
+
+def test_modules_to_be_copied_from_pages_have_the_right_types(tmp_path: Path) -> None:
+    paths: list[Path] = []
+    for page in ("extending.md", "hand.md", "reflexes.md"):
+        for code in re.findall(r"```python\n(.*?)```", (ROOT / "docs" / page).read_text(), re.DOTALL):
+            paths.append(tmp_path / f"{page.removesuffix('.md')}_{len(paths)}.py")
+            paths[-1].write_text(code)
+    assert len(paths) >= 7
+    told = subprocess.run(["mypy", *map(str, paths)], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert told.returncode == 0, told.stdout + told.stderr
