@@ -166,7 +166,12 @@ SOURCES = [
 
 
 def is_there(name: str) -> bool:
-    """Whether a path or a module with dots, from wherever its reader would begin, exists."""
+    """Whether a path or a module with dots, from wherever its reader would begin, exists; of a message's header, it."""
+    header = re.fullmatch(r"acts_msgs/msg/(\w+)\.hpp", name)
+    if header is not None:
+        return header[1] in {
+            re.sub(r"(?<=[a-z])(?=[A-Z])", "_", path.stem).lower() for path in ROOT.glob("acts_msgs/msg/*.msg")
+        }
     return any(str(path).endswith(f"/{name}") for path in TRACKED)
 
 

@@ -20,7 +20,7 @@ from peers import Peers
 
 from acts_core.array import ArrayGeometry
 from acts_core.frames import SampleFrame, Scheme
-from acts_msgs.msg import TactileSamples
+from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.messages import SamplesMessage
 from acts_ros.qos import STATE, STREAM
 
@@ -44,7 +44,13 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A workspace with the page's package, built."""
     folder = tmp_path_factory.mktemp("my_ws")
     package = folder / "src" / "my_touch"
-    (setup, node), (manifest, launch_file), (left,) = blocks("python"), blocks("xml"), blocks("yaml")
+    (setup, node), (left,) = blocks("python"), blocks("yaml")
+    manifest, of_messages, launch_file = blocks("xml")
+    messages = {
+        "package.xml": of_messages,
+        "CMakeLists.txt": blocks("cmake")[0],
+        "msg/Grip.msg": blocks("text")[0],
+    }
     files = {
         "package.xml": manifest,
         "setup.py": setup,
@@ -59,6 +65,10 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name, text in files.items():
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         (package / name).write_text(text)
+    for name, text in messages.items():
+        path = folder / "src" / "my_msgs" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
     in_overlay(folder, "true", "colcon build")
     return folder
 
@@ -113,3 +123,14 @@ def test_its_node_recovers_frames_and_ends_in_order(workspace: Path) -> None:
     geometry, point = ArrayGeometry(), heard[0].point
     assert heard[0].header.frame_id == "left"
     assert (point.x, point.y) == pytest.approx((float(geometry.x_m(20)), float(geometry.y_m(9))), abs=1e-3)
+
+
+def test_its_message_is_one_of_the_workspace(workspace: Path) -> None:
+    asked = "from my_msgs.msg import Grip; print(Grip(firmness=0.5).firmness)"
+    assert in_overlay(workspace, f"python3 -c '{asked}'").strip() == "0.5"
+
+
+def test_its_node_in_cpp_reads_fields_that_there_are() -> None:
+    fields = set(re.findall(r"\bcontact\.(\w+)", blocks("cpp")[0].partition("class ")[2]))
+    assert fields == {"header", "in_contact", "force"}
+    assert fields <= set(Contact.get_fields_and_field_types())
