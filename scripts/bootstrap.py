@@ -127,7 +127,8 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
     if code != 0:
         tail = log_path.read_text(errors="replace").splitlines()[-40:]
         print("\n".join(tail), file=sys.stderr)
-        raise SetupError(f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}")
+        failed = f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}"
+        raise SetupError(f"{failed}. If an earlier set-up was killed, run `make clean` first")
 
 
 def base_python() -> str:

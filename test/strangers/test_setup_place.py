@@ -297,6 +297,14 @@ def test_a_full_disk_is_told_in_one_line(
     assert capsys.readouterr().err.startswith(f"[setup] {tmp_path}: No space left on device; the same command then ")
 
 
+def test_a_step_that_fails_names_its_log_and_what_helps(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bootstrap, "STATE", tmp_path)
+    with pytest.raises(bootstrap.SetupError, match=r"code 1; .*build\.log\. If an .* killed, run `make clean` first"):
+        bootstrap.run(["false"], "build.log")
+
+
 def test_what_is_up_to_date_is_not_written_again(
     bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
