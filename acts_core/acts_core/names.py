@@ -49,7 +49,7 @@ def is_full_name(text: str) -> bool:
     return _FULL_NAME.fullmatch(text) is not None
 
 
-def full_name(given: str, what: str = "topic") -> str:
+def full_name(given: str, what: str = "topic", *, has_names_below: bool = False) -> str:
     """The name with one slash before it and none behind.
 
     Parameters
@@ -57,7 +57,9 @@ def full_name(given: str, what: str = "topic") -> str:
     given : str
         As somebody writes it, such as ``/plate/contact`` or ``plate``.
     what : str
-        What it names, for the message: "topic", "name of a service", "name of a node" or "namespace".
+        What it names, for the message.
+    has_names_below : bool
+        Whether names of topics or services begin with it, as with a namespace or a node: it is shorter then.
 
     Raises
     ------
@@ -67,7 +69,7 @@ def full_name(given: str, what: str = "topic") -> str:
     name = f"/{given.strip('/')}"
     if not is_full_name(name):
         raise SettingsError(f"{given!r} is no {what}: allowed are {ALLOWED}, parts with / between")
-    longest = _TOPIC_LENGTH_MAX - (_BELOW_LENGTH_MAX if what in ("namespace", "name of a node") else 0)
+    longest = _TOPIC_LENGTH_MAX - (_BELOW_LENGTH_MAX if has_names_below else 0)
     if len(name) > longest:
         raise SettingsError(
             f"'{name[:_LENGTH_MAX]}...' is no {what}: it has {len(name)} characters, at most {longest} are allowed"

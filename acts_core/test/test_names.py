@@ -42,15 +42,22 @@ def test_what_ros_has_no_name_for_is_refused(given: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("what", "longest"),
-    [("topic", 247), ("name of a service", 247), ("name of a node", 183), ("namespace", 183)],
+    ("what", "has_names_below", "longest"),
+    [
+        ("topic", False, 247),
+        ("name of a service", False, 247),
+        ("name of a node", True, 183),
+        ("namespace", True, 183),
+    ],
 )
-def test_a_name_is_as_long_as_ros_takes_it_with_what_a_node_puts_behind(what: str, longest: int) -> None:
-    assert full_name("a" * (longest - 1), what) == "/" + "a" * (longest - 1)
-    with pytest.raises(
-        SettingsError, match=rf"'/a{{63}}\.\.\.' is no {what}: it has {longest + 1} .* at most {longest}"
-    ):
-        full_name("a" * longest, what)
+def test_a_name_is_as_long_as_ros_takes_it_with_what_a_node_puts_behind(
+    what: str, has_names_below: bool, longest: int
+) -> None:
+    taken = full_name("a" * (longest - 1), what, has_names_below=has_names_below)
+    assert taken == "/" + "a" * (longest - 1)
+    said = rf"'/a{{63}}\.\.\.' is no {what}: it has {longest + 1} .* at most {longest}"
+    with pytest.raises(SettingsError, match=said):
+        full_name("a" * longest, what, has_names_below=has_names_below)
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
         )
         (given,) = arguments.skins or ["board"]
         # That of the root is empty, before the slash of its topics.
-        name = "" if given == "/" else full_name(given, "namespace")
+        name = "" if given == "/" else full_name(given, "namespace", has_names_below=True)
         record_dir = settings.record_folder if arguments.control else None
         source = BoardSource(
             name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir

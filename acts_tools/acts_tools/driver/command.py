@@ -69,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     values = parameters_of(arguments.values)
     namespace = arguments.namespace.strip("/")
-    node = f"{full_name(namespace, 'namespace')}/driver" if namespace else "/driver"
+    node = f"{full_name(namespace, 'namespace', has_names_below=True)}/driver" if namespace else "/driver"
     # Imported here: rclpy takes a second, and an invalid parameter is reported without it.
     from rcl_interfaces.srv import SetParametersAtomically
     from rclpy.parameter import Parameter

@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     SettingsError
         There is no such node or parameter, a value has another type, or the node refuses it.
     """
-    node_name = full_name(arguments.node.strip("/"), "name of a node")
+    node_name = full_name(arguments.node.strip("/"), "name of a node", has_names_below=True)
     pairs = [word.partition("=") for word in arguments.parameters]
     if len({bool(equals) for _, equals, _ in pairs}) > 1:
         raise SettingsError("either names alone, to show them, or all with =VALUE, to set them")
