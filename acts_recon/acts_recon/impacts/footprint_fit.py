@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -159,7 +158,11 @@ def fit_footprint(
         return None
     sd_n = np.hypot(np.hypot(noise_n, _SPREAD * force_n), _MISFIT * float(force_n.max()))
     nodes = min(max(frames, LEAST_NODES), _MOST_NODES)
-    model, state = _fitted(1e3 * time_s, 1e3 * x_m, 1e3 * y_m, force_n, sd_n, nodes)
+    models = [
+        FootprintModel(1e3 * time_s, 1e3 * x_m, 1e3 * y_m, force_n, sd_n, nodes, is_long=is_long)
+        for is_long in (False, True)
+    ]
+    model, state = _better(*models)
     misfit = float(np.mean(model.residuals(state)[: taxel.size][pressed] ** 2))
     wider = float(np.exp((state - model.before)[model.widths].max()))
     measured_share = float(np.count_nonzero(pressed)) / (frames * np.unique(taxel[pressed]).size)
@@ -195,10 +198,11 @@ def fit_footprint(
     )
 
 
-def _fitted(*samples: Any) -> tuple[FootprintModel, Array]:
-    """A model of samples, round or long, and the state that explains them best; the parameters are the model's."""
-    models = [FootprintModel(*samples, is_long=is_long) for is_long in (False, True)]
-    states = [minimise(model, model.start()) for model in models]
-    squares = [float(np.sum(model.residuals(state) ** 2)) for model, state in zip(models, states, strict=True)]
-    is_long = squares[1] < _LONG_SHARE * squares[0] and squares[0] - squares[1] > _LONG_GAIN
-    return models[is_long], states[is_long]
+def _better(of_round: FootprintModel, of_long: FootprintModel) -> tuple[FootprintModel, Array]:
+    """The round or the long one, and the state by which it explains the samples best."""
+    states = minimise(of_round, of_round.start()), minimise(of_long, of_long.start())
+    round_squares = float(np.sum(of_round.residuals(states[0]) ** 2))
+    long_squares = float(np.sum(of_long.residuals(states[1]) ** 2))
+    if long_squares < _LONG_SHARE * round_squares and round_squares - long_squares > _LONG_GAIN:
+        return of_long, states[1]
+    return of_round, states[0]
