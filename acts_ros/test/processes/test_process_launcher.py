@@ -10,7 +10,6 @@ import errno
 import fcntl
 import io
 import os
-import pty
 import re
 import signal
 import subprocess
@@ -23,8 +22,7 @@ from pathlib import Path
 import pytest
 from waiting import wait_for
 
-from acts_core.errors import LaunchError
-from acts_ros.processes.console import Console, make_log_folder
+from acts_ros.processes.console import Console
 from acts_ros.processes.launcher import Launcher
 from acts_ros.processes.process import Process
 from acts_ros.processes.respawn import LONGEST_WAIT_S, SOON_S, RespawnWait
@@ -358,50 +356,3 @@ def test_a_process_with_an_argument_that_is_no_text_may_die_beside_one_that_stay
     for text in (raw.getvalue().decode(), log.read_text(encoding="utf-8")):
         assert "cmd '/bin/sh -c exit 1 x:=/tmp/\\udcff'" in text
     assert "[it] healthy" in raw.getvalue().decode()
-
-
-def test_a_log_folder_of_somebody_who_is_not_there_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_LOG_DIR", "~nosuchperson/log")
-    with pytest.raises(LaunchError, match="~nosuchperson/log: "):
-        make_log_folder()
-
-
-class Full(io.StringIO):
-    """A file on a disk that becomes full."""
-
-    name = "launch.log"
-
-    def write(self, text: str) -> int:
-        if self.tell() > 0:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        return super().write(text)
-
-
-def test_on_a_full_disk_the_output_goes_on_without_the_log_and_the_launch_without_output() -> None:
-    screen = io.StringIO()
-    console = Console(None, screen)
-    console._log = Full()
-    for text in ("one", "two", "three"):
-        console.say("INFO", "it", text)
-    console.close()
-    end = "[WARNING] [launch]: launch.log ends here: No space left on device"
-    assert screen.getvalue().splitlines() == ["[INFO] [it]: one", end, "[INFO] [it]: two", "[INFO] [it]: three"]
-    full = Console(None, Full())
-    for text in ("one", "two", "three"):
-        full.say("INFO", "it", text)
-    assert not full.screen_lost
-
-
-def test_a_terminal_that_is_gone_is_given_up_once_and_takes_no_files() -> None:
-    # As after the end of a remote session under nohup: each write to it fails.
-    master, slave = pty.openpty()
-    with os.fdopen(slave, "w") as stream:
-        before = len(list(Path("/proc/self/fd").iterdir()))
-        console = Console(None, stream)
-        os.close(master)
-        for number in range(100):
-            console.say("INFO", "it", f"line {number}")
-        assert len(list(Path("/proc/self/fd").iterdir())) == before - 1
-        assert not console.is_behind
-        assert not console.screen_lost
-        assert os.fstat(stream.fileno()).st_rdev == Path(os.devnull).stat().st_rdev
