@@ -17,7 +17,7 @@ from acts_control.hand.control import HandSupervisor, SupervisorConfig
 from acts_control.hand.description import LEAP_RIGHT, HandKinematics, hand_description
 from acts_control.hand.motors import HandReading
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
-from acts_control.hand.reflexes import REFLEXES, HandState, make_reflexes
+from acts_control.hand.reflexes import REFLEXES, HandState, Reflex, Sensed, Wish, make_reflexes
 from acts_control.loop_rate import steady_s
 from acts_core.skin import RegionContact
 
@@ -190,6 +190,37 @@ def test_a_palm_that_feels_more_than_is_allowed_opens_all_fingers(besides: list[
     hand.step([region("palm", 60.0), *besides], steps=3)
     for finger in LEAP_RIGHT.fingers.values():
         assert all(hand.angle(joint) < before[NAMES.index(joint)] for joint in finger.closes)
+
+
+class Broken(Reflex):
+    """A reflex whose sums have gone wrong, and which claims the hand."""
+
+    Config = SupervisorConfig
+    priority = 90
+    states = frozenset({HandState.CLOSING, HandState.HOLDING})
+
+    def reset(self) -> None:
+        pass
+
+    def step(self, sensed: Sensed) -> Wish | None:
+        everything = np.ones(16, dtype=bool)
+        return Wish(sensed.steps() + math.nan, "broken", everything, avoids=True, holds=True)
+
+
+def test_of_a_reflex_whose_steps_are_not_finite_nothing_counts() -> None:
+    hand = RigidHand(("broken", Broken(None)), grip_settle_s=0.02)
+    hand.supervisor.restart(recovered=False)
+    hand.step([])
+    assert hand.supervisor.grasp() == ""
+    assert hand.step([], steps=250) is HandState.CLOSING
+    # Its claim of all joints did not keep the hand from closing.
+    assert hand.angle("index_pip") > LEAP_RIGHT.postures["pregrasp"][2]
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    status = hand.supervisor.status
+    assert status.reason.startswith("gripped by")
+    assert status.active == ()
+    assert status.refused == 270
+    assert status.refusal == "broken asks for steps that are not finite"
 
 
 @pytest.mark.parametrize("recovered", [True, False])

@@ -86,6 +86,12 @@ class StepRule:
         """The goals stand still."""
         self._steps[:] = 0.0
 
+    def is_usable(self, wish: Wish) -> bool:
+        """Whether its steps are finite; one with others is counted in `refused`."""
+        usable = bool(np.isfinite(wish.steps).all())
+        self.refused += not usable
+        return usable
+
     def goals(self, goal_rad: Array, q_rad: Array, current_ma: Array, wishes: Sequence[Wish], dt_s: float) -> Array:
         """The next goals.
 
@@ -108,10 +114,7 @@ class StepRule:
         wanted = np.zeros(len(goal_rad))
         lasting = np.zeros(len(goal_rad))  # what of it is not to be at once
         at_once = np.zeros(len(goal_rad), dtype=bool)
-        for wish in wishes:
-            if not np.isfinite(wish.steps).all():
-                self.refused += 1
-                continue
+        for wish in filter(self.is_usable, wishes):
             wanted[free] += wish.steps[free]
             if wish.at_once:
                 at_once |= free & (wish.steps != 0.0)

@@ -246,10 +246,7 @@ class HandSupervisor:
         )
         self._touch.is_new = False
         asked, active = self._ask(sensed, is_stale)
-        refused_before = self._rule.refused
         goal = self._rule.goals(goal, q, sensed.current_ma, asked, dt_s)
-        if self._rule.refused > refused_before:
-            self._touch.refusal = f"a reflex asks for steps that are not finite; asking are {', '.join(active)}"
         self.status = SupervisorStatus(
             state=self._state,
             reason=self._reason,
@@ -282,9 +279,18 @@ class HandSupervisor:
         return wishes, list(of_reflexes)
 
     def _reflex_wishes(self, sensed: Sensed) -> dict[str, Wish]:
-        """What the reflexes of the present state ask for, by their names and in the order of their priority."""
-        steps = {name: one.step(sensed) for name, one in self._reflexes.items() if sensed.state in one.states}
-        return {name: wish for name, wish in steps.items() if wish is not None}
+        """What the reflexes of the present state ask for, by their names and in the order of their priority.
+
+        Of one whose steps are not finite nothing counts: neither that it holds or avoids, nor the joints it claims.
+        """
+        wishes = {}
+        for name, reflex in self._reflexes.items():
+            wish = reflex.step(sensed) if sensed.state in reflex.states else None
+            if wish is not None and self._rule.is_usable(wish):
+                wishes[name] = wish
+            elif wish is not None:
+                self._touch.refusal = f"{name} asks for steps that are not finite"
+        return wishes
 
     def _change_by(self, wishes: Sequence[Wish], avoids: str, state: HandState) -> None:
         """Change to the state that the wishes of a step ask for; `avoids`: why something is avoided, or nothing."""
