@@ -111,6 +111,7 @@ class FootTracker:
             return ()
         sample = _Bin(time_s, force, force * x_m, force * y_m)
         if time_s < self._newest_s - _CLOCK_BACK_S:
+            self._newest_s = -math.inf
             self._forget()
             self._begin_anew()
         elif time_s <= self._newest_s:

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -161,6 +161,23 @@ def test_a_clock_that_is_set_back_begins_anew() -> None:
     for begin_s in (1000.0, 0.0):
         counts.append(sum(len(tracker.step(begin_s + t, f)) for t, f in zip(time_s, walked(time_s), strict=True)))
     assert counts == [9, 9]
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([20.0, 200.0]), st.floats(-0.9, 5.0))
+def test_after_the_clock_was_set_back_a_foot_is_as_a_new_one(seed: int, rate_hz: float, later_s: float) -> None:
+    time_s = times_s(rate_hz, 6.0)
+    force = walked(time_s) + 0.01 * np.random.default_rng(seed).standard_normal(time_s.size)
+    used, new = FootTracker(), FootTracker()
+    for at_s, value in zip((time_s + later_s + 7.0).tolist(), force.tolist(), strict=True):
+        used.step(at_s, value)
+    for at_s, value in zip(time_s.tolist(), force[::-1].tolist(), strict=True):
+        told, expected = used.step(at_s, value), new.step(at_s, value)
+        assert [(one.strike_s, one.toe_off_s, one.peak_force) for one in told] == [
+            (one.strike_s, one.toe_off_s, one.peak_force) for one in expected
+        ]
+    assert used.loads == new.loads
+    assert used.carries_since_s == new.carries_since_s
 
 
 def test_an_object_in_the_shoe_does_not_move_the_path() -> None:
