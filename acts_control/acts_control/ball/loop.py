@@ -289,7 +289,7 @@ class ControlLoop:
             if self._stop_reason:
                 controller.end(self._stop_reason)
             self._take_changes(controller, gate)
-            dt = min(passed_s, self._robot.longest_step_rad / self._config.max_tilt_rate_rad_s)
+            dt = min(passed_s, self._robot.longest_step_rad / gate.fastest_rad_s)
             now_ns = self._now_ns()
             measured = reading.tilt_rad
             tilt = controller.step(ControlInput(now_ns, self.ball, self.reference, measured), dt)

@@ -109,8 +109,9 @@ class RobotWatch:
 class TiltGate:
     """The last look at a tilt before it is commanded: finite, and within the limits but for a margin.
 
-    The robot has a look of its own after this, at its joints. Nothing that the controller's limiter makes is refused:
-    where limits are tightened while the plate is tilted, the old ones hold until it has come within the new ones.
+    The robot has a look of its own after this, at its joints. Nothing that the controller's limiter makes is refused
+    while limits stay as they are. Where they are tightened while the plate is tilted, the old ones hold until it has
+    come within the new ones; one that swings out of them again before it has braked is refused.
 
     Attributes
     ----------
@@ -124,6 +125,11 @@ class TiltGate:
         self._since_s = 0.0
         self._max_tilt_rad = limits.max_tilt_rad
         self._max_rate_rad_s = limits.max_tilt_rate_rad_s
+
+    @property
+    def fastest_rad_s(self) -> float:
+        """The rate about each axis that the plate may have: that of the limits, or a larger one that it had before."""
+        return max(self._max_rate_rad_s, self.limits.max_tilt_rate_rad_s)
 
     def fault(self, tilt_rad: tuple[float, float], dt: float) -> str:
         """Why a tilt must not be commanded, in words; empty when it may, and `sent` is to be called once it has been.
@@ -141,7 +147,7 @@ class TiltGate:
         allowed = _MARGIN * max(self._max_tilt_rad, self.limits.max_tilt_rad)
         if hypot(*tilt_rad) > allowed:
             return f"the command is {hypot(*tilt_rad):.4f} rad off the level pose, allowed is {allowed:.4f}"
-        allowed = _MARGIN * self._longest_rad(max(self._max_rate_rad_s, self.limits.max_tilt_rate_rad_s))
+        allowed = _MARGIN * self._longest_rad(self.fastest_rad_s)
         if self._step_rad(tilt_rad) > allowed:
             return f"the command jumps by {self._step_rad(tilt_rad):.4f} rad, allowed is {allowed:.4f}"
         return ""
