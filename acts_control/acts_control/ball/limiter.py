@@ -13,7 +13,7 @@ from acts_core.settings import setting, validate
 
 _LEVEL_RAD = 1e-6
 _STILL_RAD_S = 1e-3
-_ROUNDING = 1e-9
+_ROUNDING = 1e-10
 
 
 @dataclass(frozen=True)
@@ -83,30 +83,42 @@ class TiltLimiter:
         share = self.config.max_tilt_rad / max(hypot(target_x_rad, target_y_rad), self.config.max_tilt_rad)
         target_x_rad, target_y_rad = share * target_x_rad, share * target_y_rad
         state = self.state
-        x, rate_x = self._axis(state.tilt_x_rad, state.rate_x_rad_s, target_x_rad, dt)
-        y, rate_y = self._axis(state.tilt_y_rad, state.rate_y_rad_s, target_y_rad, dt)
+        farthest_rad = self._bound_rad()
+        rates = (
+            self._rate(target_x_rad - state.tilt_x_rad, state.rate_x_rad_s, dt),
+            self._rate(target_y_rad - state.tilt_y_rad, state.rate_y_rad_s, dt),
+        )
         # Each axis ends within the circle, but on the way from one target to another both can be far out at once.
-        size, farthest = hypot(x, y), self._bound_rad()
-        if size > farthest:
-            share = farthest / size
-            x, y = x * share, y * share
-            rate_x, rate_y = (x - state.tilt_x_rad) / dt, (y - state.tilt_y_rad) / dt
-        state.tilt_x_rad, state.tilt_y_rad, state.rate_x_rad_s, state.rate_y_rad_s = x, y, rate_x, rate_y
-        return x, y
+        if not self._stops_within(farthest_rad, rates, dt):
+            rates = self._straight(target_x_rad - state.tilt_x_rad, target_y_rad - state.tilt_y_rad, dt)
+        if not self._stops_within(farthest_rad, rates, dt):
+            rates = self._braked(dt)
+        state.rate_x_rad_s, state.rate_y_rad_s = rates
+        state.tilt_x_rad += rates[0] * dt
+        state.tilt_y_rad += rates[1] * dt
+        return state.tilt_x_rad, state.tilt_y_rad
 
     def _bound_rad(self) -> float:
         """How far the tilt may be: `max_tilt_rad`; where that has become smaller, the one before until it is kept."""
         limit, state = self.config.max_tilt_rad, self.state
-        rate = hypot(state.rate_x_rad_s, state.rate_y_rad_s)
-        stops_at = hypot(state.tilt_x_rad, state.tilt_y_rad) + rate**2 / (
-            2.0 * self.config.max_tilt_acceleration_rad_s2
-        )
-        if self._farthest_rad < limit or stops_at <= limit * (1.0 + _ROUNDING):
+        if self._farthest_rad < limit or self._stops_within(limit, (state.rate_x_rad_s, state.rate_y_rad_s), 0.0):
             self._farthest_rad = limit
         return self._farthest_rad
 
-    def _axis(self, tilt: float, rate: float, target: float, dt: float) -> tuple[float, float]:
-        error = target - tilt
+    def _stops_within(self, limit_rad: float, rates: tuple[float, float], dt: float) -> bool:
+        """Whether a plate that turns at these rates for `dt`, and then brakes, stays this near to level.
+
+        It can brake along a straight line, both axes at rest at the same time. A circle that holds both ends of a line
+        holds all of it.
+        """
+        state, (rate_x, rate_y) = self.state, rates
+        # The way to stop from the rate v is v^2 / (2 a) at most, and less in steps, however long they are.
+        time_s = dt + 0.5 * max(abs(rate_x), abs(rate_y)) / self.config.max_tilt_acceleration_rad_s2
+        stops_at = hypot(state.tilt_x_rad + rate_x * time_s, state.tilt_y_rad + rate_y * time_s)
+        return stops_at <= limit_rad * (1.0 + _ROUNDING)
+
+    def _rate(self, error: float, rate: float, dt: float) -> float:
+        """The next rate of one axis that is to turn by `error`, as fast as may be."""
         change = self.config.max_tilt_acceleration_rad_s2 * dt
         # The rate from which braking by `change` a step takes n steps and ends at the target: the sum over k of
         # (rate - k change) dt is the error.
@@ -114,5 +126,26 @@ class TiltLimiter:
         wanted = min(abs(error) / (n * dt) + 0.5 * (n - 1) * change, self.config.max_tilt_rate_rad_s)
         if error < 0.0:
             wanted = -wanted
-        new_rate = min(max(wanted, rate - change), rate + change)
-        return tilt + new_rate * dt, new_rate
+        return min(max(wanted, rate - change), rate + change)
+
+    def _straight(self, error_x: float, error_y: float, dt: float) -> tuple[float, float]:
+        """The next rates of a plate that is to turn on a straight line: that leaves the circle nowhere."""
+        state, config = self.state, self.config
+        change = config.max_tilt_acceleration_rad_s2 * dt
+        error = max(abs(error_x), abs(error_y))
+        # The largest v with v dt + v^2 / (2 a) = error.
+        speed = min(
+            sqrt(change**2 + 2.0 * config.max_tilt_acceleration_rad_s2 * error) - change, config.max_tilt_rate_rad_s
+        )
+        share = speed / error if error > 0.0 else 0.0
+        change_x, change_y = share * error_x - state.rate_x_rad_s, share * error_y - state.rate_y_rad_s
+        share = min(change / max(abs(change_x), abs(change_y), change), 1.0)
+        return state.rate_x_rad_s + share * change_x, state.rate_y_rad_s + share * change_y
+
+    def _braked(self, dt: float) -> tuple[float, float]:
+        """The next rates of a plate that brakes along a straight line."""
+        state = self.state
+        change = self.config.max_tilt_acceleration_rad_s2 * dt
+        fastest = max(abs(state.rate_x_rad_s), abs(state.rate_y_rad_s), change)
+        share = 1.0 - change / fastest
+        return share * state.rate_x_rad_s, share * state.rate_y_rad_s

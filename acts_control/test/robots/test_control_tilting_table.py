@@ -9,7 +9,7 @@ Time is that of the simulation: nothing waits, and every run is the same.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from math import hypot, isfinite
 from pathlib import Path
@@ -40,11 +40,27 @@ from acts_control.robots.base import CommandRefusedError, Robot
 from acts_core.errors import RobotError, SettingsError
 
 # A plate that is turned to and fro as fast as its settings allow.
-HASTY = {"max_tilt_rate_rad_s": 3.0, "max_tilt_acceleration_rad_s2": 40.0, "kp": 60.0}
+HASTY = {
+    "max_tilt_rad": 0.17,
+    "table_reach_rad": 0.2,
+    "max_tilt_rate_rad_s": 3.0,
+    "max_tilt_acceleration_rad_s2": 40.0,
+    "kp": 80.0,
+}
+
+FAST_RAD_S = 2.2
+PERIOD_S = 0.008
 
 PAGE = (Path(__file__).parents[3] / "docs" / "extending.md").read_text()
 DEADLINE_S = 60.0
 NAME = "tilting_table"
+
+
+def longest_step_rad(aims: Sequence[tuple[float, float]]) -> float:
+    """Of two tilts that follow each other, how far the axis turned that turned farther; 0 where there are not two."""
+    return max(
+        (abs(b - a) for first, second in pairwise(aims) for a, b in zip(first, second, strict=True)), default=0.0
+    )
 
 
 @pytest.fixture
@@ -79,7 +95,7 @@ class Run:
         self,
         table: SimulatedTable,
         until_s: float,
-        at: Callable[[float], None] = lambda _time_s: None,
+        at: Callable[[float, ControlLoop], None] = lambda _time_s, _loop: None,
         **others: float,
     ) -> None:
         self.table = table
@@ -114,7 +130,7 @@ class Run:
         self.loop.reference = ReferenceReport(table.now_ns(), Reference(0.0, 0.0))
         self.places_m.append((table.time_s, *table.place_m))
         self.phases.append(phase)
-        self._at(table.time_s)
+        self._at(table.time_s, self.loop)
         if table.time_s > self._until_s:
             self.loop.stop("the time is up")
 
@@ -139,7 +155,7 @@ def test_a_table_of_two_axes_balances_a_ball(names: dict[str, Any], table: Simul
 def test_stale_touch_levels_and_stops_it(names: dict[str, Any], table: SimulatedTable) -> None:
     tilts: list[float] = []
     table.is_silent = lambda time_s: time_s > 1.2
-    run = Run(table, until_s=20.0, at=lambda _time_s: tilts.append(max(map(abs, table.angles))))
+    run = Run(table, until_s=20.0, at=lambda *_moment: tilts.append(max(map(abs, table.angles))))
     assert run.status.reason.startswith("touch is stale: the newest is 3.")
     times_s = [time_s for time_s, _, _ in run.places_m]
     moments = list(zip(times_s, tilts, strict=True))
@@ -160,20 +176,38 @@ def test_where_touch_returns_the_ball_is_balanced_again(names: dict[str, Any], t
 def test_a_late_cycle_makes_up_for_no_more_than_the_motors_may_turn_at_once(
     names: dict[str, Any], table: SimulatedTable
 ) -> None:
-    def hold_up(time_s: float) -> None:
-        if 0.5 < time_s < 1.5:
+    def hold_up(time_s: float, _loop: ControlLoop) -> None:
+        if 0.5 < time_s < 1.5 and longest_step_rad(table.aims[-2:]) > FAST_RAD_S * PERIOD_S:
             table.sleep(0.03)
 
     run = Run(table, until_s=4.0, at=hold_up, **HASTY)
     assert run.status.reason == "the time is up"
-    steps = [max(abs(b - a) for a, b in zip(*pair, strict=True)) for pair in pairwise(table.aims)]
+    steps = [longest_step_rad(pair) for pair in pairwise(table.aims)]
     assert 0.04 < max(steps) <= 0.05
+
+
+def test_a_late_cycle_right_after_the_rate_was_lowered_counts_with_the_rate_that_the_plate_still_has(
+    names: dict[str, Any], table: SimulatedTable
+) -> None:
+    settings = {**HASTY, "max_tilt_acceleration_rad_s2": 20.0, "table_step_rad": 0.035}
+    slower = with_robots(LoopConfig)(robot=NAME, lever_arm_m=LEVER_ARM_M, **{**settings, "max_tilt_rate_rad_s": 0.5})
+    lowered: list[float] = []
+
+    def lower_and_hold_up(time_s: float, loop: ControlLoop) -> None:
+        if time_s > 0.5 and not lowered and longest_step_rad(table.aims[-2:]) > FAST_RAD_S * PERIOD_S:
+            lowered.append(time_s)
+            loop.change(slower)
+            table.sleep(0.03)
+
+    run = Run(table, until_s=4.0, at=lower_and_hold_up, **settings)
+    assert lowered
+    assert run.status.reason == "the time is up"
 
 
 def test_a_cable_that_is_pulled_ends_motion_and_nothing_more_is_sent(
     names: dict[str, Any], table: SimulatedTable
 ) -> None:
-    def pull(time_s: float) -> None:
+    def pull(time_s: float, _loop: ControlLoop) -> None:
         table.is_gone = time_s > 2.0
 
     run = Run(table, until_s=9.0, at=pull)
