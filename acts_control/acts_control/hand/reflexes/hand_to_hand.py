@@ -6,7 +6,7 @@
 Each joint that closes a finger carries one phalanx. Where that phalanx presses less than is wanted the joint closes,
 where it presses more the joint opens, so force goes from phalanges with much to those with little, and one that has
 lost touch looks for it. Before the comfort limit of force or pressure is reached, the whole finger gives way; all of
-them where the palm is pressed.
+them where the palm is pressed, whether or not they have touched yet. No reflex of lower priority closes it meanwhile.
 
 ISO/TS 15066:2016, table A.2, allows 140 N of quasi-static force on hand and fingers and, where it presses hardest,
 about 200 to 300 N/cm^2 (2 to 3 MPa). Those are limits of pain; comfort is a small part of them.
@@ -89,7 +89,7 @@ class HandToHand(Reflex):
     """See the module."""
 
     Config = HandToHandConfig
-    priority = 30
+    priority = 65  # above slip: it would close a finger that gives way
     states = frozenset({HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING})
 
     config: HandToHandConfig
@@ -104,6 +104,7 @@ class HandToHand(Reflex):
         if not state.moves:
             state.moves = sensed.moving_joints()
         steps, why = sensed.steps(), ""
+        gives_way = np.zeros(len(steps), dtype=bool)
         state.phalanges = 0
         at_palm = any(map(self._is_too_much, sensed.of_finger("")))
         touching = {finger for finger in sensed.hand.fingers if any(one.in_contact for one in sensed.of_finger(finger))}
@@ -112,14 +113,14 @@ class HandToHand(Reflex):
             state.touched_s = sensed.time_s
         is_there = sensed.time_s - state.touched_s <= config.hand_to_hand_search_s
         for finger in sensed.hand.fingers:
-            regions = sensed.of_finger(finger)
-            # One that has lost all touch looks for it, too, unless what was held has gone.
-            if finger not in state.fingers or not is_there:
-                continue
-            closing = sensed.closing(finger)
+            regions, closing = sensed.of_finger(finger), sensed.closing(finger)
             if at_palm or any(map(self._is_too_much, regions)):
                 steps -= config.hand_to_hand_max_steps * closing
+                gives_way |= closing != 0.0
                 why = f"{finger} gives way"
+                continue
+            # One that has lost all touch looks for it, too, unless what was held has gone.
+            if finger not in state.fingers or not is_there:
                 continue
             if sensed.state is HandState.CLOSING:
                 continue  # each finger closes by itself, and shares nothing yet
@@ -131,7 +132,7 @@ class HandToHand(Reflex):
         np.clip(steps, -config.hand_to_hand_max_steps, config.hand_to_hand_max_steps, out=steps)
         if not steps.any():
             return None
-        return Wish(steps, why or f"force shared among {state.phalanges} phalanges")
+        return Wish(steps, why or f"force shared among {state.phalanges} phalanges", gives_way)
 
     def _wanted(self, force_n: float, in_contact: bool) -> float:
         config = self.config

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hand_rig import DT_S, NAMES, joints_of, region, sensed
+from hand_rig import DT_S, GRIPPED, NAMES, RigidHand, joints_of, region, sensed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,6 +15,7 @@ from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import REFLEXES, HandState, HandToHandConfig, Wish
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
+from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
 from acts_control.hand.reflexes.spheres.aiming import approaches, radius_on_palm, reach
 from acts_control.hand.reflexes.spheres.ball import fitted_sphere
 from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
@@ -224,6 +225,35 @@ def test_the_comfort_limit_holds_while_the_hand_closes_and_nothing_is_shared_bef
     assert wish is not None
     assert (wish.steps[joints_of("ring")] < 0.0).all()
     assert not wish.steps[joints_of("index")].any()
+
+
+@pytest.mark.parametrize("state", [HandState.CLOSING, HandState.HOLDING])
+def test_all_fingers_give_way_where_the_palm_is_pressed_too_hard_also_before_they_touch(state: HandState) -> None:
+    reflex = HandToHand(HandToHandConfig())
+    wish = reflex.step(sensed(region("palm", 12.0), state=state))
+    assert wish is not None
+    for finger in LEAP_RIGHT.fingers:
+        assert (wish.steps[joints_of(finger)] < 0.0).all(), finger
+
+
+def test_a_finger_above_the_comfort_limit_gives_way_also_while_something_slips() -> None:
+    reflexes = ("slip", SlipPrevention(SlipPreventionConfig())), ("hand_to_hand", HandToHand(HandToHandConfig()))
+    hand = RigidHand(*reflexes, grip_settle_s=0.02)
+    hand.supervisor.restart(recovered=False)
+    hand.step([])
+    assert hand.supervisor.grasp() == ""
+    assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+    before = hand.goal.copy()
+    active: set[str] = set()
+    hard, slips = region("ring_distal", 12.0), region("index_distal", 0.8, slip_m=3e-4, slipping=True)
+    for _ in range(30):
+        hand.step([slips, hard])
+        active |= set(hand.supervisor.status.active)
+        assert (hand.goal[joints_of("ring")] <= before[joints_of("ring")]).all()
+    assert active == {"slip", "hand_to_hand"}
+    assert (hand.goal[joints_of("ring")] < before[joints_of("ring")] - 0.02).all()
+    # Who does not press too hard grips harder.
+    assert (hand.goal[joints_of("index")] > before[joints_of("index")]).all()
 
 
 def test_a_finger_that_has_lost_all_touch_looks_for_it_until_what_was_held_is_gone() -> None:
