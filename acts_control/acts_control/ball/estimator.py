@@ -40,9 +40,12 @@ _NS = 1e-9
 # Speeds a ball may have when it is first touched.
 _START_SPEED_M_S = 0.3
 
-# How quickly a larger force is believed to be the ball's weight, and a smaller one.
+# How quickly a larger force is believed to be the ball's weight, and a smaller one. Where no message has told of more
+# for a while, a hand has pressed and let go: that is believed quickly as well.
 _FORCE_RISE_S = 0.1
 _FORCE_FALL_S = 5.0
+_LARGEST_FALL_S = 0.1
+_LARGEST_KEPT_S = 0.5
 
 _MAX_TILTS = 1000
 
@@ -190,6 +193,9 @@ class BallEstimator:
         # Newest last; bounded, in case tilts come without contacts.
         self._tilts: deque[tuple[int, float, float]] = deque(maxlen=_MAX_TILTS)
         self._usual_force = 0.0
+        # The largest force since `_kept_ns`, and of the `_LARGEST_KEPT_S` before that.
+        self._kept_ns = 0
+        self._largest_force = self._largest_force_before = 0.0
 
     def set_tilt(self, stamp_ns: int, tilt_x_rad: float, tilt_y_rad: float) -> None:
         """Tell the tilt of the plate; before the first it is taken to be level.
@@ -243,21 +249,29 @@ class BallEstimator:
             zx, zy = x + self._lever * self._lean_x, y + self._lever * self._lean_y
             if not state.valid:
                 # What was felt before need not have been this ball: a hand may have pressed harder than it weighs.
-                self._usual_force = 0.0
-            variance = self._variance(force, dt if state.valid else 0.0)
+                self._usual_force = self._largest_force = self._largest_force_before = 0.0
+                self._kept_ns = stamp_ns
+            variance = self._variance(force, stamp_ns, dt if state.valid else 0.0)
             if not state.valid or not self._correct(zx, zy, variance, stamp_ns):
                 self._restart(zx, zy, variance, stamp_ns)
         self._publish()
 
-    def _variance(self, force: float, dt: float) -> float:
+    def _variance(self, force: float, stamp_ns: int, dt: float) -> float:
         """Variance of a centre of pressure along each axis [m^2], from how much of the contact was seen.
 
-        Where a frame's samples hit only the edge of the contact, its centre is drawn there and its force is too small.
-        The usual force is followed quickly upwards and slowly downwards, and no single message raises it by much.
+        Where a frame's samples hit only the edge of the contact, its centre is drawn there and its force is too small:
+        smaller than others of the last moments. The usual force is followed quickly upwards and slowly downwards, but
+        never stays above all of those. No single message raises it by much.
         """
+        if stamp_ns - self._kept_ns > _LARGEST_KEPT_S / _NS:
+            self._kept_ns, self._largest_force_before, self._largest_force = stamp_ns, self._largest_force, 0.0
+        self._largest_force = max(self._largest_force, force)
+        largest = max(self._largest_force, self._largest_force_before)
         usual = self._usual_force
         if force > usual:
             usual = usual + min(force - usual, usual) * min(dt / _FORCE_RISE_S, 1.0) if usual > 0.0 else force
+        elif usual > largest:
+            usual += (largest - usual) * min(dt / _LARGEST_FALL_S, 1.0)
         else:
             usual += (force - usual) * min(dt / _FORCE_FALL_S, 1.0)
         self._usual_force = usual

@@ -259,6 +259,23 @@ def test_one_hard_knock_does_not_make_all_that_follows_doubtful() -> None:
     assert estimator.state.x_m > 0.011
 
 
+@pytest.mark.parametrize("every_ms", [1, 10])
+def test_a_hand_that_pressed_on_the_ball_makes_its_place_doubtful_for_a_moment_only(every_ms: int) -> None:
+    estimator = settled()
+    for k in range(300, 2300, every_ms):
+        estimator.step(touch(k, force_n=40.0))
+    for k in range(2300, 3700, every_ms):
+        estimator.step(touch(k))
+    expected = settled()
+    for k in range(300, 3700, every_ms):
+        expected.step(touch(k))
+    for k in range(3700, 3800, every_ms):
+        estimator.step(touch(k, 0.014))
+        expected.step(touch(k, 0.014))
+    assert expected.state.x_m > 0.0135
+    assert estimator.state.x_m == pytest.approx(expected.state.x_m, abs=5e-4)
+
+
 def test_a_hand_that_pressed_before_does_not_make_the_next_ball_doubtful() -> None:
     def after(force_n: float) -> BallEstimator:
         estimator = BallEstimator(EstimatorConfig())
