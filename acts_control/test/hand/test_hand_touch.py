@@ -112,6 +112,15 @@ def test_touch_with_numbers_that_cannot_be_counts_as_not_come(broken: RegionCont
     assert hand.goal == pytest.approx(held)
 
 
+def test_touch_that_names_a_region_twice_counts_as_not_come() -> None:
+    hand = a_holding_hand()
+    hand.step(None)
+    assert not hand.supervisor.touch([*all_regions(*GRIPPED), region("palm")], hand.now_s, hand.now_s)
+    hand.step(None)
+    assert hand.supervisor.status.refused == 1
+    assert hand.supervisor.status.refusal == "touch names 'palm' more than once"
+
+
 def test_old_touch_is_not_taken_for_new() -> None:
     hand = a_holding_hand()
     hand.supervisor.touch(all_regions(TIP), hand.now_s - 1.0, hand.now_s)

@@ -55,12 +55,16 @@ class HandTouch:
         """Take a message of touch, see `HandSupervisor.touch`."""
         if not stamp_s <= now_s + _FUTURE_S:
             return self.refuse(f"touch is stamped {stamp_s - now_s:.3g} s ahead of the clock")
+        names = [one.name for one in regions]
         # A message has all patches of its skin, also those that nothing touches: this one says nothing of the hand.
         if not any(one.name in self._hand.regions for one in regions):
             return self.refuse(
-                f"touch names {_listed([one.name for one in regions])}; the hand has "
+                f"touch names {_listed(names)}; the hand has "
                 f"{_listed(list(self._hand.regions))}: is `regions` the topic of another skin?"
             )
+        twice = next((name for name in self._hand.regions if names.count(name) > 1), "")
+        if twice:
+            return self.refuse(f"touch names {twice!r} more than once")
         objection = next(filter(None, map(self._objection, regions)), "")
         if objection:
             return self.refuse(objection)
