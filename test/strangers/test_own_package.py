@@ -81,6 +81,7 @@ def in_overlay(folder: Path, command: str, before: str = "true") -> str:
     return finished.stdout
 
 
+@pytest.mark.alone  # it builds the workspace
 def test_its_launch_file_starts_ours_twice_with_parameters_of_their_own(workspace: Path) -> None:
     share = workspace / "install" / "my_touch" / "share" / "my_touch"
     printed = in_overlay(workspace, "acts launch my_touch two_skins.launch.xml --own --print")
