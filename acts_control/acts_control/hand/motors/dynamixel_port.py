@@ -3,9 +3,10 @@
 
 """What is said on a bus of Dynamixel motors, one exchange at a time, through the unmodified `dynamixel_sdk`.
 
-What is particular about that library (4.1.0): it waits for answers in a busy loop, unless the port itself waits; it
-takes what does not fit a register apart without a word; `fastSyncRead` raises IndexError for an answer that is whole
-but too short; what the port itself raises (OSError, termios.error) passes through.
+What is particular about that library (4.1.0): it waits for answers in a busy loop, unless the port itself waits, and
+without end where bytes come without end; it takes what does not fit a register apart without a word; `fastSyncRead`
+raises IndexError for an answer that is whole but too short; what the port itself raises (OSError, termios.error) passes
+through.
 """
 
 from __future__ import annotations
@@ -35,6 +36,9 @@ _READ_TIMEOUT_S = 0.001
 # hangs, or a simulated bus that was stopped, takes no more than some 20 kB.
 _WRITE_TIMEOUT_S = 1.0
 
+# Far more than the longest answer, which takes a quarter of it.
+_ANSWER_BYTES_MAX = 4096
+
 _TRIES = 3
 
 
@@ -58,6 +62,7 @@ class DynamixelPort:
         self._chosen: tuple[int, ...] = ()
         # Motors that have left a request without an answer: it may still come.
         self._late: set[int] = set()
+        self._may_come_bytes = 0  # as the answer to what was sent last
 
     # --- the port itself
 
@@ -102,7 +107,7 @@ class DynamixelPort:
                 # Before 4.1, which ROS does not have, it leaves in the port what came too late: each request from then
                 # on would get the answer to the one before.
                 self._port.clearPort = self._port.ser.reset_input_buffer
-                self._port.writePort = self._write
+                self._port.writePort, self._port.readPort = self._write, self._read
         except (OSError, termios.error) as error:
             self.disconnect()
             raise HandError(why_not(config.port, error)) from error
@@ -234,6 +239,7 @@ class DynamixelPort:
     def _write(self, packet: bytes) -> int:
         """Write a packet for the library, which takes one that was not written whole for an exchange that failed."""
         line = self._port.ser
+        self._may_come_bytes = _ANSWER_BYTES_MAX
         try:
             return int(line.write(packet))
         except SerialTimeoutException:
@@ -241,6 +247,17 @@ class DynamixelPort:
             if select.select([], [line.fileno()], [], 0)[1]:
                 return 0
             raise
+
+    def _read(self, size: int) -> bytes:
+        """Read for the library, which looks at the time only where less has come than it waits for.
+
+        Where something sends without end, as what is no hand may do, it would wait without end.
+        """
+        data = bytes(self._port.ser.read(min(size, self._may_come_bytes)))
+        self._may_come_bytes -= len(data)
+        if not self._may_come_bytes:
+            time.sleep(_READ_TIMEOUT_S)
+        return data
 
     @contextmanager
     def _using_port(self) -> Iterator[None]:

@@ -238,3 +238,32 @@ def test_a_port_that_takes_nothing_more_is_gone(monkeypatch: pytest.MonkeyPatch)
             os.close(end)
         thread.join(DEADLINE_S)
         port.close()
+
+
+def test_who_asks_what_sends_without_end_is_told_that_no_motor_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    # As a skin's board, whose port was given for that of the hand.
+    is_over, told = threading.Event(), []
+    monkeypatch.setattr(serial.Serial, "read", lambda _port, size: b"" if is_over.is_set() else b"\x11" * size)
+    nobody_reads, terminal = os.openpty()
+    tty.setraw(terminal)
+    port = DynamixelPort(DynamixelConfig(port=os.ttyname(terminal), answer_timeout_ms=5.0))
+    port.open()
+
+    def ask() -> None:
+        try:
+            port.ping(LEAP_RIGHT.joints[2])
+        except HandError as error:
+            told.append(str(error))
+
+    # In a thread: it would wait without end.
+    thread = threading.Thread(target=ask, daemon=True)
+    thread.start()
+    thread.join(DEADLINE_S)
+    is_over.set()
+    try:
+        assert told == ["motor 2 (index_pip) does not answer"]
+    finally:
+        thread.join(DEADLINE_S)
+        port.close()
+        for end in (nobody_reads, terminal):
+            os.close(end)
