@@ -206,6 +206,18 @@ def test_a_motor_that_is_found_switched_off_counts_like_one_that_does_it_later(b
         running.loop.close()
 
 
+def test_a_motor_that_was_started_anew_while_the_torque_was_off_is_not_told_as_why_it_is_off(
+    bus: Bus, running: Running
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    assert running.loop.release() == ""
+    bus.command("overload 6")
+    running.until(lambda: running.loop.status.recovered == 1)
+    cycles = running.loop.status.cycles
+    running.until(lambda: running.loop.status.cycles > cycles + 5)
+    assert (running.loop.status.phase, running.loop.status.reason) == (HandPhase.RELEASED, "released by request")
+
+
 def test_a_motor_that_may_not_switch_itself_off_even_once_starts_anew_when_that_is_asked_for(bus: Bus) -> None:
     running = Running(bus, max_faults=1)
     try:

@@ -184,8 +184,7 @@ class HandLoop:
                 self._closing.wait(self._config.connect_retry_s)
                 continue
             self._is_on = False
-            # Why it stays off, also where that was said before the hand was lost.
-            self._set(HandPhase.RELEASED, (not self._wish.is_on and self._wish.why_off) or "connected")
+            self._set(HandPhase.RELEASED, self._wish.why_released)
             return
 
     def _serve(self) -> None:
@@ -352,8 +351,10 @@ class HandLoop:
                 self._give_up(f"{name}: {fault}, {self._config.max_faults} times within a minute; call enable to go on")
                 return
             self._log("error", f"{name}: {fault}; its motor is started anew")
-            was_on = self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING)
-            self._set(HandPhase.RECOVERING if was_on else HandPhase.RELEASED, f"{name}: {fault}")
+            if self.status.phase in (HandPhase.ENABLED, HandPhase.RECOVERING):
+                self._set(HandPhase.RECOVERING, f"{name}: {fault}")
+            else:
+                self._set(HandPhase.RELEASED, f"{name}: {fault}" if self._wish.is_on else self._wish.why_released)
             began_s = steady_s()
             self._bus.recover(k)
             self._commands.was_at_work(steady_s() - began_s)

@@ -94,6 +94,11 @@ class TorqueWish:
         self.on_is_known, self.off_is_known = threading.Event(), threading.Event()
         self.off_is_known.set()
 
+    @property
+    def why_released(self) -> str:
+        """Why a hand that is connected has no torque, in words, also where that was said before it was lost."""
+        return (not self.is_on and self.why_off) or "connected"
+
     def on(self) -> None:
         """Somebody wants the torque on."""
         self.on_is_known.clear()
