@@ -97,7 +97,10 @@ class DynamixelHand:
         return told
 
     def enable(self) -> None:
-        """Switch the torque on; every joint holds where it is. Where that fails half-way, it is switched off again."""
+        """Switch the torque on; every joint holds where it is. Where that fails half-way, it is switched off again.
+
+        A motor that switches itself off meanwhile is told by `read`, and the others hold.
+        """
         watchdog = math.ceil(self._config.motor_watchdog_s / table.WATCHDOG_UNIT_S)
         try:
             for index, joint in enumerate(self._hand.joints):
@@ -105,7 +108,7 @@ class DynamixelHand:
                 position = self._port.read(joint, table.POSITION)
                 self._port.write(joint, table.GOAL_POSITION, position)
                 self._goal_rad[index] = _angle_rad(joint, table.signed(position.to_bytes(4, "little")))
-                self._port.write(joint, table.TORQUE, 1)
+                self._switch_on(joint)
                 # What comes in between, such as a cable torn off, leaves no motor on without a watchdog.
                 self._port.write(joint, table.WATCHDOG, table.LONGEST_WATCHDOG if watchdog else 0)
             for joint in self._hand.joints:
@@ -115,6 +118,16 @@ class DynamixelHand:
                 self.release()
             raise
         self._is_on = True
+
+    def _switch_on(self, joint: Joint) -> None:
+        """Switch the torque of a motor on, unless it has switched itself off, which it then refuses to undo."""
+        try:
+            self._port.write(joint, table.TORQUE, 1)
+        except HandLostError:
+            raise
+        except HandError:
+            if not self._port.read(joint, table.HARDWARE_ERROR):
+                raise
 
     def _watch(self, joint: Joint, watchdog: int) -> None:
         """Set the watchdog of a motor, also where that has stopped it since it was switched on."""

@@ -19,7 +19,7 @@ from waiting import wait_for
 from acts_control.hand.description import LEAP_RIGHT, HandDescription, Joint
 from acts_control.hand.motors import DynamixelConfig, DynamixelHand, HandError, HandLostError
 from acts_control.hand.motors.dynamixel_port import DynamixelPort
-from acts_control.hand.motors.dynamixel_table import Register
+from acts_control.hand.motors.dynamixel_table import TORQUE, Register
 from acts_core.errors import SettingsError
 
 pytestmark = pytest.mark.slow
@@ -94,6 +94,23 @@ def test_an_overload_is_read_and_recovered_by_starting_anew(bus: Bus) -> None:
     hand.enable()
     motor = bus.motors()[6]
     assert (motor["torque_enable"], motor["operating_mode"], motor["goal_current"]) == (1, 5, 350)
+    hand.close()
+
+
+def test_a_motor_that_fails_as_the_torque_comes_on_ends_nothing(bus: Bus, monkeypatch: pytest.MonkeyPatch) -> None:
+    hand = bus.hand()
+    hand.connect()
+    write = hand._port.write
+
+    def another_fails(joint: Joint, register: Register, value: int) -> None:
+        if (joint, register) == (LEAP_RIGHT.joints[4], TORQUE):
+            bus.command("overload 6")
+        write(joint, register, value)
+
+    monkeypatch.setattr(hand._port, "write", another_fails)
+    hand.enable()
+    assert [(k, fault) for k, fault in enumerate(hand.read().faults) if fault] == [(6, "overload")]
+    assert [k for k, motor in enumerate(bus.motors()) if not motor["torque_enable"]] == [6]
     hand.close()
 
 
