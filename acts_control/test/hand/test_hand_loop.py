@@ -8,16 +8,15 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
-from hand_loop_rig import STALE_S, Made, MadeBus, Moved, Running
-from waiting import wait_for
+from hand_loop_rig import Made, Moved, Running
 
-from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
+from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
@@ -273,102 +272,6 @@ def test_a_hand_that_was_released_and_enabled_between_two_cycles_is_not_released
     assert asked.poll() == ""
     assert not running.loop.cancel_enable()
     assert torques(bus) == {1}
-
-
-def test_what_was_commanded_while_the_loop_stood_still_is_not_done(made: Made) -> None:
-    bus, loop, until = made
-    until(lambda: loop.status.phase is HandPhase.RELEASED)
-    assert loop.enable() == ""
-    until(lambda: len(bus.sent) > 3)
-    bus.answers.clear()
-    begin_s = time.monotonic()
-    until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
-    bus.answers.set()
-    # As from a queue that has waited: now, whether the loop goes on before or after it.
-    loop.command({"index_pip": 0.9})
-    cycles = loop.status.cycles
-    until(lambda: loop.status.cycles > cycles + 20)
-    assert bus.sent[-1] == pytest.approx(bus.q_rad)
-
-    def is_obeyed() -> bool:
-        loop.command({"index_pip": 0.9})
-        return bus.sent[-1][2] > 0.5
-
-    until(is_obeyed)
-
-
-def sleeping(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """For how long the machine has slept, to be set [s]."""
-    clock_gettime, slept_s = time.clock_gettime, [0.0]
-
-    def clock(number: int) -> float:
-        # Of the steady ones, Linux lets only this one run meanwhile.
-        return clock_gettime(number) + (slept_s[0] if number == time.CLOCK_BOOTTIME else 0.0)
-
-    monkeypatch.setattr(time, "clock_gettime", clock)
-    return slept_s
-
-
-def test_what_was_commanded_before_the_machine_slept_is_not_done_afterwards(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    slept_s, bus, told = sleeping(monkeypatch), MadeBus(), []
-    config = HandLoopConfig(silence_s=10.0, command_stale_after_s=10.0, max_speed_rad_s=0.1)
-    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, sentence: told.append(sentence))
-    loop.launch()
-
-    def until(condition: Callable[[], bool]) -> None:
-        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (loop.status, told))
-
-    try:
-        until(lambda: len(bus.sent) > 3)
-        loop.command({"index_pip": 1.3})
-        until(lambda: bus.sent[-1][2] > 0.31)
-        slept_s[0] = 600.0
-        until(lambda: loop.status.reason == "holding")
-        # A busy machine adds to it.
-        assert [sentence[:31] for sentence in told] == ["this program stood still for 60"]
-        assert bus.sent[-1][2] < 1.2
-    finally:
-        loop.close()
-
-
-class Waiting(Moved):
-    """A behaviour that notes for how long it was told that motors did not answer."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.waited_s: list[float] = []
-
-    def waited(self, seconds: float) -> None:
-        self.waited_s.append(seconds)
-
-
-@pytest.mark.parametrize("behaviour", [None, Waiting()])
-def test_motors_that_do_not_answer_are_no_standstill_of_the_program(behaviour: Waiting | None) -> None:
-    bus, told = MadeBus(), []
-    config = HandLoopConfig(silence_s=10.0, command_stale_after_s=STALE_S)
-    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, sentence: told.append(sentence), behaviour=behaviour)
-    loop.launch()
-
-    def until(condition: Callable[[], bool]) -> None:
-        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (loop.status, told))
-
-    try:
-        until(lambda: len(bus.sent) > 3)
-        bus.answers_to_lose, begin_s = 10**9, time.monotonic()
-        until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
-        bus.answers_to_lose, sent = 0, len(bus.sent)
-        until(lambda: len(bus.sent) > sent)
-        assert told == []
-        if behaviour is None:
-            loop.command({"index_pip": 0.9})
-            until(lambda: bus.sent[-1][2] > 0.31)
-        else:
-            assert len(behaviour.waited_s) == loop.status.unanswered
-            assert all(0.0 <= seconds <= config.silence_s for seconds in behaviour.waited_s)
-    finally:
-        loop.close()
 
 
 @pytest.mark.parametrize("broken", ["q_rad", "current_ma"])

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
 from functools import partial
 
 import pytest
@@ -17,7 +16,6 @@ from hand_loop_rig import STALE_S, Made, MadeBus, Moved, Running
 from acts_control.hand.control import HandPhase
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import HandError, HandReading
-from acts_control.loop_rate import Cycle, LoopRate
 
 pytestmark = pytest.mark.slow
 
@@ -359,38 +357,3 @@ def test_why_the_torque_is_off_is_told_also_after_the_hand_was_connected_anew(
     cycles = loop.status.cycles
     until(lambda: loop.status.cycles > cycles + 5)
     assert (bus.connects, loop.status.reason) == (2, why)
-
-
-@pytest.mark.parametrize("lost", ["read", "command"])
-def test_an_answer_that_is_lost_after_this_program_stood_still_ends_nothing(
-    made: Made, monkeypatch: pytest.MonkeyPatch, lost: str
-) -> None:
-    bus, loop, until = made
-    until(lambda: loop.status.phase is HandPhase.RELEASED)
-    assert loop.enable() == ""
-    until(lambda: len(bus.sent) > 3)
-    wait, command, is_to_stand_still, is_to_be_lost = LoopRate.wait, bus.command, threading.Event(), threading.Event()
-
-    def stands_still(rate: LoopRate) -> Cycle:
-        if is_to_stand_still.is_set():
-            is_to_stand_still.clear()
-            begin_s = time.monotonic()
-            until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
-            is_to_be_lost.set()
-            bus.answers_to_lose = int(lost == "read")
-        return wait(rate)
-
-    def is_lost(q_rad: Sequence[float]) -> None:
-        if lost == "command" and is_to_be_lost.is_set():
-            is_to_be_lost.clear()
-            raise HandError("no answer")
-        command(q_rad)
-
-    monkeypatch.setattr(LoopRate, "wait", stands_still)
-    monkeypatch.setattr(bus, "command", is_lost)
-    is_to_stand_still.set()
-    until(lambda: loop.status.unanswered == 1)
-    sent = len(bus.sent)
-    until(lambda: len(bus.sent) > sent)
-    assert bus.connects == 1
-    assert loop.status.phase is HandPhase.ENABLED
