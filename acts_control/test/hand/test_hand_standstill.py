@@ -121,6 +121,36 @@ def test_motors_that_do_not_answer_are_no_standstill_of_the_program(behaviour: W
         loop.close()
 
 
+def test_motors_that_do_not_answer_after_one_of_them_was_started_anew_are_none_either(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    bus, told = MadeBus(), []
+    config = HandLoopConfig(silence_s=10.0, command_stale_after_s=STALE_S)
+    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, sentence: told.append(sentence))
+    recover = bus.recover
+
+    def fall_silent(joint: int) -> None:
+        recover(joint)
+        bus.answers_to_lose = 10**9
+
+    def until(condition: Callable[[], bool]) -> None:
+        wait_for(condition, timeout_s=DEADLINE_S, state=lambda: (loop.status, told))
+
+    monkeypatch.setattr(bus, "recover", fall_silent)
+    loop.launch()
+    try:
+        until(lambda: len(bus.sent) > 3)
+        bus.faults[2], begin_s = "overload", time.monotonic()
+        until(lambda: time.monotonic() - begin_s > 1.5 * STALE_S)
+        bus.answers_to_lose, sent = 0, len(bus.sent)
+        until(lambda: len(bus.sent) > sent)
+        loop.command({"index_pip": 0.9})
+        until(lambda: bus.sent[-1][2] > 0.31)
+        assert [sentence for sentence in told if "stood still" in sentence] == []
+    finally:
+        loop.close()
+
+
 @pytest.mark.parametrize("lost", ["read", "command"])
 def test_an_answer_that_is_lost_after_this_program_stood_still_ends_nothing(
     made: Made, monkeypatch: pytest.MonkeyPatch, lost: str

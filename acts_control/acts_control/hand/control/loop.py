@@ -326,7 +326,7 @@ class HandLoop:
 
     def _note_silence(self, now_s: float) -> None:
         """Motors that do not answer are no standstill of this program."""
-        if self.status.phase is not HandPhase.ENABLED:
+        if self.status.phase not in (HandPhase.ENABLED, HandPhase.RECOVERING):
             return
         if self._behaviour is None:
             self._commands.look()
