@@ -18,7 +18,7 @@ from acts_core.runtime.scheduling import LogCallback, RealtimeConfig, demote_pro
 from acts_core.runtime.sequence_numbers import SequenceNumbers
 from acts_core.runtime.stamp_order import NS_PER_S, Order, StampOrder
 from acts_core.runtime.stream_statistics import StreamCounter
-from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link
+from acts_core.runtime.terminals import holders, is_multiplexer, is_stale_link, leads_to
 
 __all__ = [
     "NS_PER_S",
@@ -42,6 +42,7 @@ __all__ = [
     "is_loopback",
     "is_multiplexer",
     "is_stale_link",
+    "leads_to",
     "not_opened",
     "parse_cores",
     "path_shown",

@@ -18,7 +18,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from acts_core.runtime.terminals import holders
+from acts_core.runtime.terminals import holders, leads_to
 
 
 def ports_present(ports: Iterable[Any]) -> str:
@@ -54,7 +54,7 @@ def path_shown(path: str) -> str:
     except OSError:
         # In a folder that is not ours to look into, for instance.
         is_link = False
-    return f"{path} (a link to {os.path.realpath(path)})" if is_link else path
+    return f"{path} (a link to {leads_to(path)})" if is_link else path
 
 
 def not_opened(path: str, number: int | None, reason: str, *, what: str, present: str, rule: str = "") -> str:

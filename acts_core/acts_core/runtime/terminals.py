@@ -13,13 +13,24 @@ _LINK_TOLERANCE_NS = 100_000_000
 _MULTIPLEXER = os.makedev(5, 2)
 
 
+def leads_to(path: str) -> str:
+    """What a path leads to by links, as `os.path.realpath` tells, or the path itself.
+
+    That raises an OSError where a link vanishes while it is looked at, as that of an adapter that is unplugged.
+    """
+    try:
+        return os.path.realpath(path)
+    except OSError:
+        return str(Path(path).absolute())
+
+
 def is_stale_link(path: str) -> bool:
     """Whether a link points to a pseudo-terminal that was made after it.
 
     A simulated board that was killed leaves its link behind, and its terminal's number soon belongs to somebody else,
     whose input would be taken.
     """
-    target = os.path.realpath(path)
+    target = leads_to(path)
     try:
         if not Path(path).is_symlink() or not target.startswith("/dev/pts/"):
             return False
@@ -40,7 +51,7 @@ def is_multiplexer(path: str) -> bool:
 
 def holders(path: str) -> list[str]:
     """Names and process numbers of the programs that have a port open, as far as this user may see."""
-    device = os.path.realpath(path)
+    device = leads_to(path)
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         try:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from acts_core.runtime import is_stale_link, not_opened, path_shown
+from acts_core.runtime import holders, is_stale_link, not_opened, path_shown
 
 NOBODY = 65534
 
@@ -53,6 +53,22 @@ def test_a_name_that_is_too_long_is_only_told(name: str) -> None:
     path = f"/tmp/{name}"
     assert not is_stale_link(path)
     assert path_shown(path) == path
+
+
+def test_a_link_that_vanishes_while_it_is_looked_at_is_only_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    link = tmp_path / "hand"
+
+    def vanish(path: str) -> str:
+        link.unlink()
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+
+    monkeypatch.setattr(os, "readlink", vanish)
+    for look in (is_stale_link, path_shown, holders):
+        link.symlink_to("/dev/pts/0")
+        look(str(link))
+        assert not link.is_symlink()
 
 
 def test_a_port_is_held_by_a_program_whose_name_was_cut_off_within_a_letter(tmp_path: Path) -> None:

@@ -5,12 +5,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from acts_control.claims import ClaimedError, MachineClaim
 from acts_control.hand.motors.bus import HandError
 from acts_control.hand.motors.port_words import held
+from acts_core.runtime import leads_to
 
 
 class PortClaim:
@@ -39,7 +39,7 @@ class PortClaim:
         HandError
             When another program has one of them, which is named.
         """
-        paths = dict.fromkeys((str(Path(self._port).absolute()), os.path.realpath(self._port)))
+        paths = dict.fromkeys((str(Path(self._port).absolute()), leads_to(self._port)))
         names = [name for name in map(_name_of, paths) if name is not None]
         # An adapter that was plugged in anew may have another number, and its old one be somebody else's.
         for name in self._claims.keys() - set(names):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from serial.tools import list_ports
 
-from acts_core.runtime import errno_of, holders, not_opened, ports_present
+from acts_core.runtime import errno_of, holders, leads_to, not_opened, ports_present
 
 
 def why_not(port: str, error: Exception) -> str:
@@ -30,7 +30,7 @@ def held(port: str, held_by: str) -> str:
 
 def usb_latency(port: Path) -> list[str]:
     """What to do where the USB adapter waits before it passes on what has come."""
-    file = Path("/sys/bus/usb-serial/devices") / port.resolve().name / "latency_timer"
+    file = Path("/sys/bus/usb-serial/devices") / Path(leads_to(str(port))).name / "latency_timer"
     try:
         waits_ms = int(file.read_text())
     except (OSError, ValueError):

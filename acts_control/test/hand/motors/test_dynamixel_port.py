@@ -55,6 +55,24 @@ def test_a_link_that_a_dead_hand_has_left_is_told(bus: Bus, tmp_path: Path) -> N
         DynamixelPort(DynamixelConfig(port="/dev/ptmx")).open()
 
 
+@pytest.mark.parametrize("looks", range(3))
+def test_a_link_that_vanishes_while_it_is_looked_at_ends_nothing(
+    bus: Bus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, looks: int
+) -> None:
+    readlink, link, looked = os.readlink, tmp_path / "adapter", itertools.count()
+    link.symlink_to(bus.link.readlink())
+
+    def unplugged_meanwhile(path: str) -> str:
+        if path == str(link) and next(looked) == looks:
+            link.unlink()
+        return readlink(path)
+
+    monkeypatch.setattr(os, "readlink", unplugged_meanwhile)
+    with suppress(HandError):
+        bus.hand_at(link).connect()
+    assert not link.is_symlink()
+
+
 def test_a_port_whose_name_no_file_can_have_is_told() -> None:
     with pytest.raises(HandError, match=r"port /tmp/x+ cannot be opened: .*File name too long"):
         DynamixelPort(DynamixelConfig(port=f"/tmp/{'x' * 300}")).open()
