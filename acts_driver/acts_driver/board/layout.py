@@ -32,7 +32,7 @@ class BoardLayout:
         self._map_of: tuple[str, tuple[int, int]] | None = None
         self._reading: Future[SkinMap | None] | None = None
         self._is_told = False
-        # Whether the board has a layout from here in place of its own.
+        # Whether the board has, or may have, a layout from here in place of its own.
         self._has_arranged = False
 
     def begin_anew(self) -> None:
@@ -77,8 +77,9 @@ class BoardLayout:
                 )
             return state
         if state.map_crc32 != wanted:
-            state = self._link.arrange(self._map).state
+            # Before: it may have it though its last reply is lost.
             self._has_arranged = True
+            state = self._link.arrange(self._map).state
             self._log("info", f"the board has taken the layout {name}")
         return state
 

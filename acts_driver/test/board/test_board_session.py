@@ -12,13 +12,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from board_host import SIZE, Host, LossyWay, SimpleBoard
+from board_host import SIZE, Host
 from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
 
 from acts_core.errors import BoardError, SettingsError
-from acts_core.sampling import SkinMap
-from acts_core.skin import layout
 from acts_core.wire import BoardMessage, BoardSettings, BoardState, Reply, ReplyStatus
 from acts_core.wire.board_models import ModelKind
 from acts_core.wire.commands import NO_MODEL
@@ -44,78 +42,6 @@ def test_the_session_brings_the_board_to_what_is_wanted(host: Host) -> None:
     assert host.link.query().state.settings.scheme == "adaptive", "what is not asked is the board's own again"
     session.change(BoardParameters())
     assert host.link.query().state.settings == BoardSettings.from_sampling(BoardParameters().sampling(32, 32))
-
-
-def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Host) -> None:
-    session = host.start_session(layout="leap_right")
-    hand = SkinMap.of(layout("leap_right"))
-    assert host.link.query().state.map_crc32 == hand.crc32
-    # Somebody else has told it otherwise.
-    host.link.arrange(None)
-    session.wake()
-    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout again")
-    session.change(BoardParameters(layout="square"))
-    assert host.link.query().state.map_crc32 == 0
-    with pytest.raises(SettingsError, match=r"none\.yaml: cannot be read"):
-        session.change(BoardParameters(layout="/none.yaml"))
-    assert session.status.problem == ""
-    assert [line for line in host.log if "layout" in line] == [
-        "the board has taken the layout leap_right",
-        "the board has taken the layout leap_right",
-        "the board has taken the layout square",
-    ]
-
-
-def test_a_layout_that_is_no_longer_asked_for_gives_way_to_the_boards_own(host: Host) -> None:
-    session = host.start_session(layout="leap_right")
-    hand = SkinMap.of(layout("leap_right"))
-    assert host.link.query().state.map_crc32 == hand.crc32
-    session.change(BoardParameters())
-    assert host.link.query().state.map_crc32 == 0
-    # One that somebody else has told it stays, as nothing is asked.
-    host.link.arrange(hand)
-    session.change(BoardParameters(m=64))
-    assert host.link.query().state.map_crc32 == hand.crc32
-    assert [line for line in host.log if "layout" in line] == [
-        "the board has taken the layout leap_right",
-        "the board has its own layout again",
-    ]
-
-
-def test_a_layout_that_takes_long_to_read_is_told_to_the_board_then(
-    host: Host, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    is_there, read = threading.Event(), BoardParameters.skin_map
-
-    def slowly(parameters: BoardParameters, rows: int, cols: int) -> SkinMap | None:
-        is_there.wait(10.0)
-        return read(parameters, rows, cols)
-
-    monkeypatch.setattr(BoardParameters, "skin_map", slowly)
-    session = host.start_session(layout="leap_right")
-    assert host.link.query().state.map_crc32 == 0
-    assert session.status.problem == ""
-    is_there.set()
-    hand = SkinMap.of(layout("leap_right"))
-    wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout")
-
-
-def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
-    board, log = SimpleBoard(), []
-    session = BoardSession(
-        LossyWay(board, []).link,
-        BoardParameters(layout="glove"),
-        size=SIZE,
-        log=lambda level, words: log.append((level, words)),
-    )
-    for _ in range(3):
-        session.ask()
-        session.change(BoardParameters(layout="glove"))
-    told = [words for level, words in log if level == "warning"]
-    assert len(told) == 1
-    assert "knows no layouts" in told[0]
-    session.change(BoardParameters(layout="square"))
-    assert session.status.problem == ""
 
 
 def test_a_change_that_cannot_be_leaves_the_old_wish(host: Host) -> None:
