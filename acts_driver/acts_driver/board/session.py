@@ -315,7 +315,7 @@ class BoardSession:
         def is_wanted() -> bool:
             return self._due is model and self._opening == opening and not self._stop.is_set()
 
-        parameters, began_s = self._parameters, time.monotonic()
+        parameters = self._parameters
         wanted = (parameters, self._own)
         self._uploading = model
         try:
@@ -338,7 +338,8 @@ class BoardSession:
             self._log("info", f"the board has taken the model {parameters.model}")
             with self._turn:
                 self._due = None
-                self._see(reply.state, began_s)
+                # Not by this reply: one that the board gave later may have been heard meanwhile.
+                self._query_or_note()
 
     def _wanted_model(self) -> BoardModel | None:
         """The model that the parameters ask for, where there is one and it has been read."""

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -17,9 +19,9 @@ from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
 
 from acts_core.errors import BoardError, SettingsError
-from acts_core.wire import BoardMessage, BoardSettings, BoardState, Reply, ReplyStatus
+from acts_core.wire import BoardMessage, BoardModel, BoardSettings, BoardState, Reply, ReplyStatus
 from acts_core.wire.board_models import ModelKind
-from acts_core.wire.commands import NO_MODEL
+from acts_core.wire.commands import NO_MODEL, HeldModel
 from acts_core.wire.packets import PacketType
 from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus
 from acts_driver.board.model_file import load_model
@@ -178,6 +180,49 @@ def test_what_a_board_is_told_that_was_reset_in_the_midst_of_the_dialogue_is_not
     session.change(BoardParameters())
     session.stop()
     assert link.settings.m == 55
+
+
+class UploadingLink(OtherLink):
+    """A way to an imagined board that is told something else just when it has said that it has all of a model."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.held = NO_MODEL
+        self.meanwhile = threading.Event()
+        self.tell: Callable[[], None] = lambda: None
+
+    def query(self) -> Reply:
+        reply = super().query()
+        return replace(reply, state=replace(reply.state, model=self.held))
+
+    def announce(self, model: BoardModel) -> Reply:
+        return self.query()
+
+    def upload(self, model: BoardModel, is_wanted: Callable[[], bool] = lambda: True) -> Reply:
+        self.held = HeldModel.of(model)
+        reply = self.query()
+        self.tell()
+        self.meanwhile.set()
+        return reply
+
+
+def test_the_end_of_an_upload_that_is_read_after_a_later_answer_is_of_no_restarted_board(tmp_path: Path) -> None:
+    path = tmp_path / "model.npz"
+    np.savez(path, atoms=np.random.default_rng(5).normal(size=(64, 100)).astype(np.float32))
+    link, log = UploadingLink(), []
+    session = BoardSession(link, BoardParameters(), size=SIZE, log=lambda level, words: log.append(words))
+    link.tell = lambda: session.change(BoardParameters(m=32, model=str(path)))
+    session.start()
+    assert session.wait_for_verdict(20.0)
+    session.change(BoardParameters(m=64, model=str(path)))
+    assert link.meanwhile.wait(20.0)
+    wait_for(lambda: any("has taken the model" in line for line in log), "the model")
+    session.stop()
+    assert session.status.state is not None
+    assert session.status.state.settings.m == link.settings.m == 32
+    assert session.status.state.model.crc32 == link.held.crc32
+    session.change(BoardParameters())
+    assert link.settings.m == 55, "its own settings were not mistaken"
 
 
 def test_another_board_in_the_place_of_the_one_before_is_told() -> None:
