@@ -124,7 +124,9 @@ class ReplaySource:
     def begin(self) -> None:
         """Let the frames come; a second time changes nothing."""
         if self._zero_us is None:
-            self.silence = ""
+            if self._next is not None:
+                # Else it says why not even the first frame can come.
+                self.silence = ""
             self._zero_us = _now_us() + self._delay_us
 
     def read(self) -> bytes:

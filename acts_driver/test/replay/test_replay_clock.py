@@ -150,3 +150,12 @@ def test_damage_is_told_after_everything_before_it() -> None:
     source.begin()
     assert [one.sequence for one in StreamDecoder().feed(source.read())] == [0]
     assert source.silence == "the bag is damaged after 1 message"
+
+
+def test_damage_of_the_first_frame_is_told_also_once_frames_are_wanted() -> None:
+    twice = frame(0)._replace(indices=np.array([7, 7], np.uint16), counts=np.array([1, 2], np.uint16))
+    source = ReplaySource("test", lambda: FixedRecording([twice, frame(1)]), delay_s=0.0)
+    source.open()
+    source.begin()
+    assert source.read() == b""
+    assert source.silence.startswith("frame 1 of the recording is not valid: index 7 of sample 1 occurred before")
