@@ -217,6 +217,16 @@ def test_fingers_that_are_moved_while_the_torque_comes_on_are_not_pulled_back(ma
     assert bus.sent[0] == pytest.approx(bus.moves_to_rad)
 
 
+def test_what_was_commanded_before_the_torque_came_on_is_not_told_as_followed(made: Made) -> None:
+    bus, loop, until = made
+    until(lambda: loop.status.phase is HandPhase.RELEASED)
+    loop.command({"index_pip": 0.9})
+    assert loop.enable() == ""
+    until(lambda: len(bus.sent) > 5)
+    assert loop.status.reason == "holding"
+    assert bus.sent[-1] == pytest.approx(bus.q_rad)
+
+
 def test_a_hand_that_was_lost_and_then_stopped_gets_no_torque_when_it_is_back(made: Made) -> None:
     bus, loop, until = made
     until(lambda: loop.status.phase is HandPhase.RELEASED)

@@ -13,6 +13,8 @@ from acts_control.hand.description import HandDescription
 from acts_control.hand.motors import HandError
 from acts_control.loop_rate import steady_s
 
+_NEVER_S = -1e9
+
 
 class JointCommands:
     """Commands come from any thread; the thread of the hand's loop follows them.
@@ -33,9 +35,9 @@ class JointCommands:
         self._index = {joint.name: k for k, joint in enumerate(hand.joints)}
         self._lock = threading.Lock()
         self._target: dict[int, float] = {}
-        self._commanded_s = -1e9
+        self._commanded_s = _NEVER_S
         self._looked_s = 0.0  # when commands were looked at last
-        self._stood_still_s = -1e9  # when they were again, after nobody had done so for long
+        self._stood_still_s = _NEVER_S  # when they were again, after nobody had done so for long
 
     def take(self, angles_rad: Mapping[str, float]) -> None:
         """Take a command, see `HandLoop.command`."""
@@ -60,13 +62,13 @@ class JointCommands:
     def begin(self) -> None:
         """The torque has come on: what was wanted before is old. The loop follows commands from now on."""
         with self._lock:
-            self._target.clear()
+            self._forget()
             self._looked_s = steady_s()
 
     def begin_again(self, took_s: float) -> None:
         """The torque is on again, which took so long [s]; what stopped the motors is yet to be noticed."""
         with self._lock:
-            self._target.clear()
+            self._forget()
             self._looked_s += took_s
 
     def was_at_work(self, for_s: float) -> None:
@@ -80,7 +82,7 @@ class JointCommands:
             before_s, self._looked_s = self._looked_s, steady_s()
             still_s = self._looked_s - before_s
             if still_s > self._stale_after_s:
-                self._target.clear()
+                self._forget()
                 self._stood_still_s = self._looked_s
                 old = f"commands are left out for {self._stale_after_s:g} s, because they may have waited"
                 self._log("warning", f"this program stood still for {still_s:.1f} s: {old}")
@@ -91,3 +93,8 @@ class JointCommands:
         with self._lock:
             fresh = now_s - self._commanded_s <= self._stale_after_s
             return (dict(self._target), "moving as commanded") if fresh else ({}, "holding")
+
+    def _forget(self) -> None:
+        """What was commanded is old, and nobody follows it."""
+        self._target.clear()
+        self._commanded_s = _NEVER_S
