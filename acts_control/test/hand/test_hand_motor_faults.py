@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Sequence
 from functools import partial
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, torques
 from hand_loop_rig import STALE_S, Made, MadeBus, Moved, Running
 
-from acts_control.hand.control import HandPhase
+from acts_control.hand.control import HandPhase, fault_memory
+from acts_control.hand.control.fault_memory import FaultMemory
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import HandError, HandReading
 
@@ -214,6 +216,18 @@ def test_a_motor_that_was_started_anew_while_the_torque_was_off_is_not_told_as_w
     cycles = running.loop.status.cycles
     running.until(lambda: running.loop.status.cycles > cycles + 5)
     assert (running.loop.status.phase, running.loop.status.reason) == (HandPhase.RELEASED, "released by request")
+
+
+def test_faults_may_be_forgotten_just_while_one_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    memory = FaultMemory(motors=1, most=1)
+
+    def count(times_s: Sequence[float]) -> int:
+        counted = len(times_s)
+        memory.forget()  # as another thread does that asks for torque
+        return counted
+
+    monkeypatch.setattr(fault_memory, "len", count, raising=False)
+    assert memory.add(0)
 
 
 def test_a_motor_that_may_not_switch_itself_off_even_once_starts_anew_when_that_is_asked_for(bus: Bus) -> None:

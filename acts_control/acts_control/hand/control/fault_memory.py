@@ -22,8 +22,8 @@ class FaultMemory:
     """
 
     def __init__(self, motors: int, most: int) -> None:
-        self._times_s: list[deque[float]] = [deque(maxlen=most) for _ in range(motors)]
-        self._most = most
+        self._motors, self._most = motors, most
+        self._times_s = self._none()
 
     def add(self, motor: int) -> bool:
         """Count a fault that has come now; whether the motor has failed too often."""
@@ -33,5 +33,8 @@ class FaultMemory:
 
     def forget(self) -> None:
         """Begin anew."""
-        for times_s in self._times_s:
-            times_s.clear()
+        # `add` may be counting in those that there are.
+        self._times_s = self._none()
+
+    def _none(self) -> list[deque[float]]:
+        return [deque(maxlen=self._most) for _ in range(self._motors)]
