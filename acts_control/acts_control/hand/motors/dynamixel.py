@@ -105,6 +105,8 @@ class DynamixelHand:
         try:
             for index, joint in enumerate(self._hand.joints):
                 self._port.write(joint, table.WATCHDOG, 0)
+                # One whose power was gone for a moment has forgotten it, and would press as hard as it can.
+                self._port.write(joint, table.GOAL_CURRENT, self._config.max_current_ma)
                 position = self._port.read(joint, table.POSITION)
                 self._port.write(joint, table.GOAL_POSITION, position)
                 self._goal_rad[index] = _angle_rad(joint, table.signed(position.to_bytes(4, "little")))

@@ -228,6 +228,16 @@ def test_a_program_that_stood_still_while_it_wrote_has_not_lost_the_port(
         port.close()
 
 
+def test_a_motor_whose_power_was_gone_just_before_the_torque_comes_on_presses_no_harder_than_allowed(bus: Bus) -> None:
+    hand = bus.hand(max_current_ma=200)
+    hand.connect()
+    hand._port.reboot(LEAP_RIGHT.joints[5])
+    assert bus.motors()[5]["goal_current"] > 1000
+    hand.enable()
+    assert {(motor["torque_enable"], motor["goal_current"]) for motor in bus.motors()} == {(1, 200)}
+    hand.close()
+
+
 def test_a_port_that_takes_nothing_more_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("acts_control.hand.motors.dynamixel_port._WRITE_TIMEOUT_S", 0.2)
     nobody_reads, terminal = os.openpty()
