@@ -24,7 +24,7 @@ from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.runtime import StreamCounter
 from acts_msgs.msg import BalanceStatus
-from acts_ros.messages import ns_of, set_stamp
+from acts_ros.messages import set_stamp
 from acts_ros.qos import STATE, STREAM
 
 pytestmark = pytest.mark.slow
@@ -53,8 +53,11 @@ def start_state_node(bench: Bench, *parameters: str) -> BallStateNode:
     return node
 
 
-def publish_contacts(bench: Bench, sequences: list[int], age_ms: float = 20.0) -> None:
-    """Contacts a millisecond apart, the last one `age_ms` old; in handfuls, so that no queue runs over."""
+def publish_contacts(bench: Bench, sequences: list[int], age_ms: float = 20.0) -> int:
+    """Contacts a millisecond apart, the last one `age_ms` old; in handfuls, so that no queue runs over.
+
+    The stamp that would follow is returned [ns].
+    """
 
     def received(count: int) -> bool:
         return bool(bench.states) and bench.states[-1].contacts_received > count
@@ -64,6 +67,7 @@ def publish_contacts(bench: Bench, sequences: list[int], age_ms: float = 20.0) -
         bench.publish_contact(sequence, first_ns + k * MS, 0.01, -0.02)
         if k % 25 == 24:
             wait_for(partial(received, k - 10), "the queue to empty")
+    return first_ns + len(sequences) * MS
 
 
 @pytest.mark.parametrize("bench", [60], indirect=True)
@@ -96,14 +100,14 @@ def test_state_uses_the_tilt_and_tells_when_the_ball_is_gone(bench: Bench) -> No
     start_state_node(bench, "lost_after_s:=1.0", "publish_rate_hz:=1000.0", "lever_arm_m:=0.155")
     tilts = bench.node.create_publisher(Vector3Stamped, "ball/tilt", STREAM)
     wait_for(lambda: tilts.get_subscription_count() == 1, "the node's subscription")
-    publish_contacts(bench, list(range(100)))
+    next_ns = publish_contacts(bench, list(range(100)))
     wait_for(lambda: len(bench.states) >= 100, "states")
     tilt = Vector3Stamped()
     tilt.vector.y = 0.1
-    set_stamp(tilt.header.stamp, bench.now_ns())
+    set_stamp(tilt.header.stamp, next_ns)
     tilts.publish(tilt)
-    # Stamped a millisecond apart, however slowly this loop runs: the ball counts as lost after 1 s by the stamps.
-    stamps_ns = itertools.count(ns_of(tilt.header.stamp), MS)
+    # Stamped a millisecond apart, however slowly all this runs: the ball counts as lost after 1 s by the stamps.
+    stamps_ns = itertools.count(next_ns, MS)
 
     def moved() -> bool:
         # The tilt travels on a topic of its own: it may arrive after the first of these.
