@@ -49,6 +49,7 @@ for _number in _SIGNALS:
 _HANGS_AFTER_S = 600.0
 _STDERR = pytest.StashKey[int]()
 _CORES = pytest.StashKey[TextIO | None]()
+_LONG_ID = 120  # characters
 
 _ROOT = Path(__file__).resolve().parent
 
@@ -98,6 +99,15 @@ def pytest_configure(config: pytest.Config) -> None:
     """Keep the standard error output: pytest redirects it while a test runs."""
     assert sys.__stderr__ is not None
     config.stash[_STDERR] = os.dup(sys.__stderr__.fileno())
+
+
+def pytest_make_parametrize_id(val: object) -> str | None:
+    """Shorten what would make the name of a test a screen long; None leaves the name to pytest."""
+    if isinstance(val, (str, bytes)) and len(val) > _LONG_ID:
+        return f"{val[: _LONG_ID // 3]!a} and on to {len(val)}"
+    if isinstance(val, int) and val.bit_length() > 4 * _LONG_ID:
+        return f"number of {val.bit_length()} bits"
+    return None
 
 
 @pytest.hookimpl(wrapper=True)
