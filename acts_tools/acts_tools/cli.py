@@ -23,6 +23,7 @@ COMMANDS = {
     "launch": ("acts_tools.launch.command", "start the nodes of a launch file"),
     "record": ("acts_tools.bags.record", "record topics to a bag"),
     "play": ("acts_tools.bags.play", "publish a bag's messages again"),
+    "info": ("acts_tools.bags.info", "print what a bag holds"),
     "export": ("acts_tools.export.command", "write touch of a bag as csv, npz, parquet or LeRobot dataset"),
     "view": ("acts_tools.view", "show touch on a page in the browser"),
     "echo": ("acts_tools.echo.command", "print the messages of a topic"),

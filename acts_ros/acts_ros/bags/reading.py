@@ -19,7 +19,7 @@ from rosbags.interfaces import Connection, ConnectionExtRosbag2, Qos
 from acts_core.errors import RecordingError
 from acts_core.files import TEXT_BYTES_MAX, is_there, require_regular
 from acts_core.words import counted
-from acts_ros.bags.message_types import Definitions
+from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.salvage import largest_chunk
 from acts_ros.bags.storages import BagReader
 from acts_ros.bags.unfinished import SUFFIXES, UnfinishedBag, storage_files
@@ -67,6 +67,22 @@ class Bag:
         for connection in self.connections:
             if connection.topic == topic:
                 self._definitions.check(connection)
+
+    def message_class(self, topic: str) -> type:
+        """The installed class of a topic's messages.
+
+        Raises
+        ------
+        RecordingError
+            It is not installed, or its definition differs from the recorded one, or the topic has several types.
+        """
+        # As where two bags were merged; the messages do not tell which of them they are of.
+        kinds = {connection.msgtype for connection in self.connections if connection.topic == topic}
+        if len(kinds) > 1:
+            raise RecordingError(f"it was recorded with several types: {', '.join(sorted(kinds))}")
+        found = message_class(*kinds)
+        self.check_definition(topic)
+        return found
 
     def recorded_qos(self, topic: str) -> list[Qos]:
         """Quality of service that the publishers of a topic offered."""

@@ -15,7 +15,6 @@ from rclpy.publisher import Publisher
 
 from acts_core.errors import RecordingError
 from acts_ros.bags import qos
-from acts_ros.bags.message_types import message_class
 from acts_ros.bags.reading import Bag
 from acts_ros.publishers import TolerantPublisher
 
@@ -79,13 +78,8 @@ class Player:
         for topic in dict.fromkeys(types if topics is None else topics):
             if topic not in types:
                 raise RecordingError(f"the bag has no topic '{topic}' (it has: {', '.join(sorted(types)) or 'none'})")
-            # As where two bags were merged; the messages do not tell which of them they are of.
-            kinds = {connection.msgtype for connection in bag.connections if connection.topic == topic}
             try:
-                if len(kinds) > 1:
-                    raise RecordingError(f"it was recorded with several types: {', '.join(sorted(kinds))}")
-                kind = message_class(types[topic])
-                bag.check_definition(topic)
+                kind = bag.message_class(topic)
             except RecordingError as error:
                 say(f"not played: {topic}: {error}")
                 continue

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import signal
-import time
 from collections.abc import Iterator
 from contextlib import closing
 from functools import partial
@@ -16,6 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 from bag_commands import TIMEOUT_S, acts
+from bag_of_strings import make_bag
 from rclpy.duration import Duration
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Int32, String
@@ -36,21 +36,6 @@ pytestmark = pytest.mark.slow
 def probe() -> Iterator[Probe]:
     with Probe(194) as made:
         yield made
-
-
-def make_bag(path: Path, topics: dict[str, str], stamps_ms: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
-    """A bag of strings with known stamps; topics in turn."""
-    clock = iter(stamp * 10**6 for stamp in stamps_ms)
-    bag = BagWriter(path)
-    definition, type_hash = Definitions().describe("std_msgs/msg/String")
-    handles = [bag.add_topic(topic, kind, definition, type_hash, []) for topic, kind in topics.items()]
-    with monkeypatch.context() as patched:
-        patched.setattr(time, "time_ns", lambda: next(clock))
-        for index in range(len(stamps_ms)):
-            text = str(index).encode() + b"\0"
-            data = b"\0\1\0\0" + len(text).to_bytes(4, "little") + text
-            bag.write(handles[index % len(handles)], data)
-    bag.close()
 
 
 def noted(deadlines: list[float], deadline_s: float) -> bool:
