@@ -49,6 +49,11 @@ def is_full_name(text: str) -> bool:
     return _FULL_NAME.fullmatch(text) is not None
 
 
+def is_hidden(topic: str) -> bool:
+    """Whether a topic is one that ROS itself uses, and people do not look at: a part of its name begins with _."""
+    return any(part.startswith("_") for part in topic.split("/"))
+
+
 def full_name(given: str, what: str = "topic", *, has_names_below: bool = False) -> str:
     """The name with one slash before it and none behind.
 

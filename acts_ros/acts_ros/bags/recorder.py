@@ -17,6 +17,7 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from acts_core.errors import PacketError, RecordingError
+from acts_core.names import is_hidden
 from acts_core.runtime import SequenceNumbers
 from acts_ros.bags import qos
 from acts_ros.bags.message_types import Definitions, message_class
@@ -184,7 +185,7 @@ class Recorder:
     def _wanted(self, topic: str) -> bool:
         if self._topics is not None:
             return topic in self._topics
-        return not any(part.startswith("_") for part in topic.split("/"))
+        return not is_hidden(topic)
 
     def _add(self, topic: str, types: list[str], offers: list[TopicEndpointInfo]) -> None:
         if len(types) != 1:

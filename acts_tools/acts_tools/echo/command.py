@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""`acts echo TOPIC`: print each message of a topic, also where there is no `ros2 topic echo`."""
+"""`acts echo TOPIC`: print each message of a topic, also where there is no `ros2 topic`; without one list them."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from typing import Any
 
 from acts_core.names import full_name
 from acts_core.words import counted
-from acts_tools.arguments import at_least_one, seconds
+from acts_tools.arguments import at_least_one, refuse_unused, seconds
 
+_LIST_S = 2.0
 _TURN_S = 0.1
 # With what is waiting meanwhile, what a user sees is at most some 0.3 s old.
 _BEHIND_S = 0.1
 
 _EPILOG = """\
 examples:
+  acts echo                            the topics that running nodes publish
   acts echo /plate/impacts             each touch of the skin
   acts echo /plate/contact -n 1        the next message only
 
@@ -37,17 +39,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "echo",
         help="print the messages of a topic",
         description="Print each message of a topic as YAML, with --- after it. The topic may appear later. "
-        "Ctrl-C ends it.",
+        "Ctrl-C ends it. Without a name, list the topics there are, with their types.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("topic", metavar="TOPIC", help="topic, such as /plate/impacts")
+    parser.add_argument("topic", nargs="?", metavar="TOPIC", help="topic, such as /plate/impacts")
     parser.add_argument("-n", "--number", type=at_least_one, metavar="N", help="end after this many messages")
     parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print messages; return 0 if at least one came."""
+    """Print messages, or the topics there are; return 0 if there was at least one."""
+    if arguments.topic is None:
+        refuse_unused(arguments, "without a topic", "number", "duration")
+        return _list()
     topic = full_name(arguments.topic)
     # Imported here, because they are slow to import and other commands do not need them.
     from acts_ros.bags import require_rosbags
@@ -85,6 +90,25 @@ def run(arguments: argparse.Namespace) -> int:
             what = "no message came" if inbox.is_found else f"no publisher found{near_topic(node, topic)}"
             print(f"{topic}: {what}", file=sys.stderr)
     return 0 if printed else 1
+
+
+def _list() -> int:
+    """Print the topics that are published, and their types; the exit code."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    from acts_ros.executor import spin_for
+    from acts_tools.echo.topics import published
+    from acts_tools.running.node import command_node
+
+    with command_node("acts_echo", SingleThreadedExecutor) as (node, executor):
+        spin_for(executor, _LIST_S)
+        topics = published(node)
+    if not topics:
+        print("nobody publishes anything: is something launched, with this ROS_DOMAIN_ID?", file=sys.stderr)
+        return 1
+    width = max(map(len, topics))
+    print("\n".join(f"{topic:<{width}}  {types}" for topic, types in topics.items()))
+    return 0
 
 
 def due(messages: list[Any], is_watched: bool) -> Iterator[tuple[int, Any]]:

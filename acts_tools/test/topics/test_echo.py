@@ -218,3 +218,26 @@ def test_who_hears_nothing_is_told(talker: Node) -> None:
     finished = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
     assert (finished.returncode, finished.stdout) == (1, "")
     assert finished.stderr == "/nobody: no publisher found\n"
+
+
+def test_without_a_topic_those_that_are_published_are_listed(talker: Node, capsys: pytest.CaptureFixture[str]) -> None:
+    talker.create_publisher(Impact, "/plate/impacts", STREAM)
+    talker.create_publisher(UInt8, "/a", STREAM)
+    talker.create_publisher(UInt8, "/_hidden/a", STREAM)
+    talker.create_subscription(UInt8, "/only_wanted", lambda message: None, STREAM)
+    assert main(["echo"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    # Those of every node of ROS are among them.
+    ours = [line for line in lines if not line.startswith(("/parameter_events ", "/rosout "))]
+    assert [line.split() for line in ours] == [["/a", "std_msgs/msg/UInt8"], ["/plate/impacts", "acts_msgs/msg/Impact"]]
+    assert len({line.index(line.split()[1]) for line in lines}) == 1
+
+
+def test_where_nothing_is_published_that_is_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "230")
+    assert main(["echo"]) == 1
+    assert capsys.readouterr().err == "nobody publishes anything: is something launched, with this ROS_DOMAIN_ID?\n"
+    assert main(["echo", "-n", "2"]) == 1
+    assert "--number 2 has no effect without a topic; leave it out" in capsys.readouterr().err
