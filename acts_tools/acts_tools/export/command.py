@@ -133,7 +133,8 @@ def _rate_hz(arguments: argparse.Namespace) -> float:
 def _new_output(arguments: argparse.Namespace) -> Path:
     """Where to write; nothing is there yet."""
     output: Path = arguments.output or _default_output(arguments.bags[0], arguments.kind)
-    if output.exists():
+    # A link to nowhere is in the way of a folder, and would be replaced by a file.
+    if output.is_symlink() or output.exists():
         raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
     # What reads a recording tells an npz file by its name.
     if arguments.kind == "npz" and output.suffix != ".npz":

@@ -57,3 +57,16 @@ def test_what_cannot_be_written_is_named(
     assert main(["export", str(bag), "--to", "csv", "-o", str(tmp_path / "out")]) == 1
     assert f"error: '{tmp_path / 'out'}' cannot be written: No space left on device\n" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [bag]
+
+
+@pytest.mark.parametrize("kind", ["csv", "npz"])
+def test_a_link_to_nowhere_is_refused_before_any_work(
+    kind: str, bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    link = tmp_path / "out.npz"
+    link.symlink_to("nowhere")
+    assert main(["export", str(bag), "--to", kind, "-o", str(link)]) == 1
+    said = capsys.readouterr()
+    assert f"'{link}' exists already and is not overwritten" in said.err
+    assert said.out == ""
+    assert link.is_symlink()
