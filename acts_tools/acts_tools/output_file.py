@@ -77,9 +77,21 @@ def require_writable(
         if is_new:
             # A link to a file that does not exist yet stays.
             path.resolve().unlink()
+        elif path.is_file():
+            _require_new_files(path)
     except OSError as error:
         raise RecordingError(
             f"{path}: cannot be written ({error.strerror}); needed is a file's name in a folder that exists"
+        ) from error
+
+
+def _require_new_files(path: Path) -> None:
+    """Refuse a file that a new one cannot replace, as `write_whole` does, though it may be written itself."""
+    try:
+        tempfile.TemporaryFile(dir=path.resolve().parent).close()
+    except OSError as error:
+        raise RecordingError(
+            f"{path}: cannot be written: its folder takes no new files ({error.strerror}); name one in another folder"
         ) from error
 
 

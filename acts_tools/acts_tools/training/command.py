@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
     }
     # Everything that the result depends on; the patches' hash covers the frames and the choice of patches.
     checkpoint = Checkpoint(
-        arguments.output.with_name(arguments.output.name + ".partial"),
+        _partial(arguments.output),
         {**settings, "patches_sha256": hashlib.sha256(patches.tobytes()).hexdigest()},
     )
     atoms = _learn(patches, config, rng, checkpoint)
@@ -176,3 +176,9 @@ def _check(arguments: argparse.Namespace) -> None:
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
     require_writable(arguments.output, takes_stream=False, reads=arguments.frames or ())
+    require_writable(_partial(arguments.output), takes_stream=False)
+
+
+def _partial(output: Path) -> Path:
+    """The file of the checkpoint."""
+    return output.with_name(f"{output.name}.partial")

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,8 @@ import pytest
 from acts_tools.cli import main
 
 pytestmark = pytest.mark.slow
+
+TIMEOUT_S = 60.0
 
 COMMANDS = [
     ["selftest", "--sim", "--picture"],
@@ -78,6 +82,39 @@ def test_what_cannot_be_written_to_a_pipe_is_refused_before_any_work(
     assert said.err.startswith(f"error: {about}")
     assert said.out == ""
     assert list(tmp_path.iterdir()) == [pipe]
+
+
+@pytest.mark.parametrize("words", ["train -o", "evaluate gait --json"])
+def test_a_file_in_a_folder_that_takes_no_new_ones_is_refused_before_any_work(words: str, tmp_path: Path) -> None:
+    path = tmp_path / "shared" / "report"
+    path.parent.mkdir()
+    path.write_text("older")
+    path.parent.chmod(0o555)
+    # Root may write anywhere otherwise.
+    as_user = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
+    command = [*as_user, sys.executable, "-m", "acts_tools", *words.split(), str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S)
+    path.parent.chmod(0o755)
+    assert done.returncode == 1
+    refusal = f"error: {path}: cannot be written: its folder takes no new files (Permission denied)"
+    assert done.stderr.startswith(refusal), done.stderr
+    assert done.stdout == ""
+    assert path.read_text() == "older"
+
+
+@pytest.mark.parametrize("is_folder", [False, True])
+def test_a_training_that_cannot_keep_its_progress_does_not_begin(
+    is_folder: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / ("d.npz" if is_folder else "d" * 250)
+    partial = path.with_name(f"{path.name}.partial")
+    if is_folder:
+        partial.mkdir()
+    assert main(["train", "--presses", "8", "-o", str(path)]) == 1
+    said = capsys.readouterr()
+    assert f"error: {partial}: cannot be written (" in said.err
+    assert said.out == ""
+    assert list(tmp_path.iterdir()) == ([partial] if is_folder else [])
 
 
 def test_a_link_to_a_file_that_is_not_there_yet_stays(tmp_path: Path) -> None:
