@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -60,6 +62,8 @@ class BagWriter:
             # Without custom data rosbags writes null, where rosbag2 expects a map.
             self._writer.set_custom_data("recorder", recorder)
             self._writer.open()
+            # Not every file system counts the names of its files.
+            self._counts_names = self._names() > 0
         except (OSError, WriterError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             raise RecordingError(
@@ -89,13 +93,15 @@ class BagWriter:
         """Pass all data to the operating system, so that they survive the end of this process."""
         if self._failure is not None:
             raise self._failure
-        storage = self._writer.storage
-        assert isinstance(storage, McapFile)
+        storage = self._storage
         try:
             # An incomplete chunk would be lost; one without messages would have no valid times.
             if storage.chunk.msgs:
                 storage.close_chunk()
             storage.bio.flush()
+            # The system would go on to take what nobody can read any more.
+            if self._counts_names and not self._names():
+                raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
         except OSError as error:
             raise self._give_up(error) from error
 
@@ -112,6 +118,16 @@ class BagWriter:
         """Size of its files [bytes]."""
         return sum(path.stat().st_size for path in self.path.iterdir())
 
+    @property
+    def _storage(self) -> McapFile:
+        storage = self._writer.storage
+        assert isinstance(storage, McapFile)
+        return storage
+
+    def _names(self) -> int:
+        """How many names the file has that is written; of one that was deleted 0."""
+        return os.fstat(self._storage.bio.fileno()).st_nlink
+
     def _stamp_ns(self) -> int:
         """The present time for a message."""
         now_ns, last_ns = time.time_ns(), self._last_stamp_ns
@@ -126,7 +142,7 @@ class BagWriter:
         """Keep the file as it is: writing the rest would fail again, at the latest when Python ends."""
         with suppress(OSError):
             self._writer.abort()
-        self._failure = RecordingError(
-            f"cannot write to the bag '{self.path}': {error.strerror}. The messages in it can be played."
-        )
+        is_there = any(self.path.glob("*.mcap"))
+        left = "The messages in it can be played." if is_there else "It is not there any more: deleted, or moved."
+        self._failure = RecordingError(f"cannot write to the bag '{self.path}': {error.strerror}. {left}")
         return self._failure
