@@ -128,7 +128,10 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
         tail = log_path.read_text(errors="replace").splitlines()[-40:]
         print("\n".join(tail), file=sys.stderr)
         failed = f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}"
-        raise SetupError(f"{failed}. If an earlier set-up was killed, run `make clean` first")
+        free_mb, hint = shutil.disk_usage(STATE).free / 1e6, "If an earlier set-up was killed, run `make clean` first"
+        if free_mb < 50:  # The log may be empty then, too.
+            hint = f"{free_mb:.0f} MB are free on its disk: make room, the whole needs 1 GB"
+        raise SetupError(f"{failed}. {hint}")
 
 
 def base_python() -> str:
@@ -264,10 +267,7 @@ def environment() -> dict[str, str]:
 def write_environment() -> None:
     lines = ["# Written by scripts/bootstrap.py; source it to enter the ACTS environment."]
     for name, value in environment().items():
-        if name == "PATH":
-            lines.append(f'export PATH={shlex.quote(value)}:"$PATH"')
-        else:
-            lines.append(f"export {name}={shlex.quote(value)}")
+        lines.append(f"export {name}={shlex.quote(value)}" + (':"$PATH"' if name == "PATH" else ""))
     # What the user has set stays: these are defaults only.
     lines.append('export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"')
     lines.append(f'export ROS_LOG_DIR="${{ROS_LOG_DIR:-{STATE}/log/ros}}"')

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import pytest
 
@@ -303,6 +303,15 @@ def test_a_step_that_fails_names_its_log_and_what_helps(
     monkeypatch.setattr(bootstrap, "STATE", tmp_path)
     with pytest.raises(bootstrap.SetupError, match=r"code 1; .*build\.log\. If an .* killed, run `make clean` first"):
         bootstrap.run(["false"], "build.log")
+
+
+def test_a_step_that_fails_on_a_full_disk_says_so_though_its_log_is_empty(
+    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bootstrap, "STATE", tmp_path)
+    monkeypatch.setattr(bootstrap.shutil, "disk_usage", lambda _: SimpleNamespace(free=3_000_000))
+    with pytest.raises(bootstrap.SetupError, match=r"code 1; .*\. 3 MB are free on its disk: make room, .* 1 GB$"):
+        bootstrap.run(["false"], "pip.log")
 
 
 def test_what_is_up_to_date_is_not_written_again(
