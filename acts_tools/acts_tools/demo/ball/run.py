@@ -179,8 +179,9 @@ def _run(seconds: float | None, files: DemoFiles, robot_ip: str, realtime_priori
         with files.log_shown():
             watch(launch_arguments, duration_s, recording, files.log, stop)
     results = score(recording)
+    # Before what a full disk may not take.
+    print(table(results))
     files.write(results)
     draw(recording, results, ArrayGeometry(), files.picture)
-    print(table(results))
     print(f"  wrote {files}")
     return 0 if results["ok"] else 1

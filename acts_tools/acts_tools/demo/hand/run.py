@@ -63,9 +63,10 @@ def _run(names: list[str], files: DemoFiles, seed: int, stop: StopFlag) -> int:
     with files.log_shown():
         acts = [play(name, seed, files.log, stop, begin_s) for name in names]
     results = score(acts)
+    # Before what a full disk may not take.
+    print(table(results, acts))
     files.write(results)
     draw(acts, files.picture)
-    print(table(results, acts))
     print(f"  wrote {files}")
     return 0 if results["ok"] else 1
 
