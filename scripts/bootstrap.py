@@ -52,8 +52,7 @@ NETWORK_HINT = (
 )
 # Each comes with a package of its name.
 TOOLS = ("g++", "cmake", "make")
-# A change to one of these, or of this file, asks for a new colcon build; Python modules do not, they are linked into
-# the installation.
+# A change to one of these, or of this file, asks for a colcon build; Python modules are linked into the installation.
 BUILD_INPUTS = (
     *("setup.py", "setup.cfg", "CMakeLists.txt"),
     *(f"*.{kind}" for kind in ("msg", "srv", "cpp", "hpp", "h", "xml", "yaml", "json", "rviz", "npz")),
@@ -123,10 +122,9 @@ def run(command: list[str], log_name: str, env: dict[str, str] | None = None) ->
     log_path = STATE / "log" / log_name
     log_path.parent.mkdir(parents=True, exist_ok=True)
     with log_path.open("wb") as log:
-        code = subprocess.run(command, cwd=ROOT, env=env, stdout=log, stderr=subprocess.STDOUT).returncode
+        code = subprocess.run(command, cwd=ROOT, env=env, stdout=log, stderr=log, close_fds=False).returncode
     if code != 0:
-        tail = log_path.read_text(errors="replace").splitlines()[-40:]
-        print("\n".join(tail), file=sys.stderr)
+        print("\n".join(log_path.read_text(errors="replace").splitlines()[-40:]), file=sys.stderr)
         failed = f"`{shlex.join(command[:4])} ...` ended with code {code}; its output is in {log_path}"
         free_mb, hint = shutil.disk_usage(STATE).free / 1e6, "If an earlier set-up was killed, run `make clean` first"
         if free_mb < 50:  # The log may be empty then, too.
@@ -348,6 +346,8 @@ def open_lock() -> IO[str]:
 
 def acquire(lock: IO[str]) -> None:
     """Take the lock; say so where that takes longer than another command's look at what is up to date."""
+    # A step holds it, too: where this process alone is killed, what it has started goes on for minutes.
+    os.set_inheritable(lock.fileno(), True)
     deadline_s = time.monotonic() + 2.0
     while time.monotonic() < deadline_s:
         try:

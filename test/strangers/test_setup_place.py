@@ -18,6 +18,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from waiting import wait_for
 
 BOOTSTRAP = Path(__file__).resolve().parent.parent.parent / "scripts" / "bootstrap.py"
 
@@ -312,6 +313,29 @@ def test_a_step_that_fails_on_a_full_disk_says_so_though_its_log_is_empty(
     monkeypatch.setattr(bootstrap.shutil, "disk_usage", lambda _: SimpleNamespace(free=3_000_000))
     with pytest.raises(bootstrap.SetupError, match=r"code 1; .*\. 3 MB are free on its disk: make room, .* 1 GB$"):
         bootstrap.run(["false"], "pip.log")
+
+
+def test_a_step_that_outlives_its_set_up_keeps_the_next_one_waiting(tmp_path: Path) -> None:
+    """As where the set-up alone is killed: its pip or colcon goes on, and the next would write into the same."""
+    lines = (
+        f"import sys; from pathlib import Path; sys.path.insert(0, {str(BOOTSTRAP.parent)!r}); import bootstrap",
+        f"bootstrap.STATE = Path({str(tmp_path)!r}); lock = bootstrap.open_lock(); bootstrap.acquire(lock)",
+        "bootstrap.run(['sh', '-c', 'echo begun; read end'], 'step.log')",
+    )
+    log = tmp_path / "log/step.log"
+    set_up = subprocess.Popen([sys.executable, "-c", "\n".join(lines)], stdin=subprocess.PIPE)
+    try:
+        wait_for(lambda: log.is_file() and log.read_text() == "begun\n", "the step")
+        set_up.kill()
+        set_up.wait()
+        with (tmp_path / "lock").open("w") as lock, pytest.raises(BlockingIOError):
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    finally:
+        set_up.kill()
+        # The step ends with its input.
+        set_up.communicate()
+    with (tmp_path / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
 
 
 def test_what_is_up_to_date_is_not_written_again(
