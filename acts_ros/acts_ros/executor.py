@@ -18,6 +18,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription
 from rclpy.task import Future
 
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, SettingsError, exit_code
@@ -138,6 +139,20 @@ def spin_for(executor: Executor, seconds: float) -> None:
         executor.spin_until_future_complete(ended, timeout_sec=seconds)
     finally:
         overtime.cancel()
+
+
+def destroy_subscription(node: Node, subscription: Subscription) -> None:
+    """Destroy a subscription of a node that an executor serves, on the executor's thread.
+
+    An executor fails on an event of it that has come and was not handled yet, such as that a new publisher offers less.
+    """
+    for event in subscription.event_handlers:
+        event.take_data = _nothing  # type: ignore[method-assign]
+    node.destroy_subscription(subscription)
+
+
+def _nothing() -> None:
+    """What an event that is not handled any more brings."""
 
 
 def _spin(executor: Executor, signals: StopSignals) -> None:

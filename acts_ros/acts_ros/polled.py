@@ -25,6 +25,7 @@ from rclpy.qos import QoSProfile
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 
+from acts_ros.executor import destroy_subscription
 from acts_ros.middleware import NOT_SENT, reason_of
 from acts_ros.qos import overridable
 
@@ -152,7 +153,7 @@ class PollingNode(Node):
 
     def destroy_polled_subscription(self, polled: PolledSubscription[Any]) -> None:
         """Destroy a subscription that no thread is reading."""
-        self.destroy_subscription(polled._subscription)
+        destroy_subscription(self, polled._subscription)
         self._polled.discard(polled._subscription)
 
     def _subscribe(self, kind: type, topic: str, profile: QoSProfile, depth: int | None, *, raw: bool) -> Subscription:

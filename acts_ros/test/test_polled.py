@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 
 from acts_ros.executor import EventsExecutor
 from acts_ros.polled import PolledSubscription, PollingNode
-from acts_ros.qos import STREAM
+from acts_ros.qos import LATCHED, STREAM
 
 
 class Pair(Peers):
@@ -157,3 +157,13 @@ def test_the_time_of_sending_is_told(pair: Pair) -> None:
     assert found[0][0].data == 7
     assert before_ns <= found[0][1] <= time.time_ns()
     assert pair.polled.take_all_sent() == []
+
+
+def test_a_subscription_may_be_destroyed_while_an_event_of_it_waits(pair: Pair) -> None:
+    """As when a publisher joins that offers less: the executor is told of it, and then finds no subscription."""
+    strict = pair.node.create_polled_subscription(Int32, "late", LATCHED)
+    pair.turn()
+    pair.peer.create_publisher(Int32, "late", STREAM)
+    pair.node.destroy_polled_subscription(strict)
+    pair.send(1)
+    pair.until(lambda: 1 in pair.called)

@@ -24,6 +24,7 @@ from acts_ros.bags.message_types import Definitions, message_class
 from acts_ros.bags.skin_topics import SAMPLES
 from acts_ros.bags.writing import BagWriter
 from acts_ros.clocks import boot_time_s
+from acts_ros.executor import destroy_subscription
 from acts_ros.messages import sequence_of
 
 try:
@@ -160,7 +161,7 @@ class Recorder:
     def close(self) -> None:
         """Destroy the subscriptions; nothing is written after that."""
         for subscription in self._subscriptions.values():
-            self._node.destroy_subscription(subscription)
+            destroy_subscription(self._node, subscription)
         self._subscriptions.clear()
 
     def missing(self) -> list[str]:
@@ -201,7 +202,7 @@ class Recorder:
     def _relax(self, topic: str, offers: list[TopicEndpointInfo]) -> None:
         """Subscribe again if a new publisher is not compatible with the present subscription."""
         if qos.is_too_strict(self._subscriptions[topic].qos_profile, offers):
-            self._node.destroy_subscription(self._subscriptions[topic])
+            destroy_subscription(self._node, self._subscriptions[topic])
             kind = message_class(self.records[topic].message_type)
             self._subscribe(topic, kind, qos.for_subscription(offers))
 

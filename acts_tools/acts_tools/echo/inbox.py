@@ -14,6 +14,7 @@ from rclpy.subscription import Subscription
 
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription, is_too_strict
+from acts_ros.executor import destroy_subscription
 
 
 class Inbox:
@@ -52,7 +53,7 @@ class Inbox:
         if self._subscription is not None:
             if not is_too_strict(self._subscription.qos_profile, offers):
                 return
-            self._node.destroy_subscription(self._subscription)
+            destroy_subscription(self._node, self._subscription)
         kind = message_class(offers[0].topic_type)
         self._subscription = self._node.create_subscription(kind, self._topic, self._keep, for_subscription(offers))
 

@@ -17,6 +17,7 @@ from rclpy.subscription import Subscription
 from acts_msgs.msg import Contact, TactileSamples
 from acts_ros.bags.message_types import message_class
 from acts_ros.bags.qos import for_subscription, is_too_strict
+from acts_ros.executor import destroy_subscription
 from acts_ros.messages import ns_of
 from acts_tools.listen.arrivals import Arrivals
 from acts_tools.running.near_names import near_topic
@@ -69,7 +70,7 @@ class Listener:
             if present is not None:
                 if not is_too_strict(present.qos_profile, offers):
                     continue
-                self._node.destroy_subscription(present)
+                destroy_subscription(self._node, present)
             arrivals = self.arrivals.setdefault(topic, Arrivals(time.monotonic()))
             self._subscriptions[topic] = self._node.create_subscription(
                 message_class(types[topic][0]), topic, partial(self._note, arrivals), for_subscription(offers)
