@@ -231,3 +231,23 @@ def test_whatever_comes_nothing_old_or_from_after_the_common_time_is_given(
                 assert skin.stamp_ns <= aligned.time_ns
                 assert skin.state is not SkinState.LOST
                 assert skin.age_s >= 0.0
+
+
+def test_a_skin_that_comes_again_is_fresh_with_its_first_frame_at_the_common_time() -> None:
+    """Before, what is given of it is as old as its silence, and others may be held up by a slow skin."""
+    aligner: Aligner[str] = Aligner(["left", "right", "slow"], CONFIG)
+    for time_ms in range(0, 500):
+        now_ns = NOW + time_ms * MS
+        if not 100 <= time_ms < 412:
+            aligner.take("right", now_ns, f"right {time_ms}", now_ns)
+        aligner.take("left", now_ns, "left", now_ns)
+        if time_ms % 40 == 0:
+            aligner.take("slow", now_ns, "slow", now_ns)
+        right = by_name(aligner.step(now_ns))["right"]
+        if right.state is SkinState.FRESH:
+            assert right.age_s <= CONFIG.stale_after_s, time_ms
+        elif time_ms >= 412:
+            assert right.state is SkinState.STALE
+            assert right.frame == "right 99"
+            assert right.silent_s == right.age_s
+    assert right.state is SkinState.FRESH

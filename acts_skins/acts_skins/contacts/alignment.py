@@ -228,6 +228,9 @@ class Aligner(Generic[F]):
             # A skin has just come (again), and its first frame is newer than the common time. It is not fresh yet:
             # fresh and without contacts would mean untouched, which nobody knows.
             silent_s = None
+        elif self._time_ns - skin.chosen[0] > stale_after_s * NS_PER_S:
+            # Likewise of one that was silent for a while: what is given of it is from before.
+            silent_s = max(now_ns - skin.chosen[0], 0) / NS_PER_S
         if silent_s is None or skin.chosen is None:
             return AlignedSkin(name, SkinState.LOST, None, 0.0, None, silent_s, stale_after_s)
         state = SkinState.FRESH if silent_s <= stale_after_s else SkinState.STALE
