@@ -132,6 +132,10 @@ const keepClear = new ResizeObserver(() => {
   document.documentElement.style.scrollPadding = `${top}px 0 ${bottom}px`;
 });
 for (const bar of bars) keepClear.observe(bar);
+// Of a row that a finger moves a browser shows only the edge of what the keys go to; a press would miss what moves.
+document.querySelector(".controls").addEventListener("focusin", ({ target }) => {
+  if (target.matches(":focus-visible")) target.scrollIntoView({ block: "nearest", inline: "nearest" });
+});
 darkSystem.addEventListener("change", show);
 onChange(show);
 show();

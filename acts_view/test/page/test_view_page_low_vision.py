@@ -204,6 +204,34 @@ def test_what_the_keys_go_to_is_not_covered_by_a_bar(
     assert {"Taxels, CSV", "Calibrate", "Release"} <= reached
 
 
+def test_of_the_row_of_buttons_on_a_phone_what_the_keys_go_to_is_seen_whole(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), 360, 640)
+    is_whole = """() => {
+      const own = document.activeElement.getBoundingClientRect();
+      const row = document.querySelector(".controls").getBoundingClientRect();
+      return own.left >= row.left - 0.5 && own.right <= row.right + 0.5;
+    }"""
+    reached = []
+    for key in [*["Tab"] * 11, *["Shift+Tab"] * 10]:
+        page.keyboard.press(key)
+        reached.append(page.evaluate("() => document.activeElement.id"))
+        assert page.evaluate(is_whole), (key, reached[-1])
+    assert (reached[0], reached[10], reached[-1]) == ("scale", "keys", "scale")
+    # A press does not move what it is on: of this one 20 pixels are seen.
+    place = page.evaluate(
+        """() => {
+          const [row, smooth] = [".controls", "#smooth"].map((one) => document.querySelector(one));
+          const edge = row.getBoundingClientRect().right;
+          row.scrollLeft += smooth.getBoundingClientRect().left - edge + 20;
+          return [edge - 10, smooth.getBoundingClientRect().top + 10];
+        }"""
+    )
+    page.mouse.click(*place)
+    expect(page.locator("#smooth")).to_have_attribute("aria-pressed", "true")
+
+
 def test_of_a_recording_the_button_says_what_it_does_and_not_that_it_is_pressed(
     play: Callable[..., Player], open_page: Callable[..., Page]
 ) -> None:
