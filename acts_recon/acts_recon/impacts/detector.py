@@ -380,8 +380,7 @@ class ImpactDetector:
     def _last_touched(self, touch: Touch, force: Force | None, period_s: float) -> float:
         """When a touch that is over was last touched [s]."""
         free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.patch, touch.last_sample_s, math.inf)
-        end_s, _ = touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force)
-        return end_s
+        return touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force)[0]
 
     def _followed_back(self, touch: Touch, time_s: float) -> tuple[float, float] | None:
         """When a touch that is no impact began, and the standard deviation [s]."""
@@ -393,8 +392,9 @@ class ImpactDetector:
 
     def _footprint(self, touch: Touch, time_s: Array, force_n: Array, x_m: Array, y_m: Array) -> Footprint | None:
         total = float(force_n.sum())
-        middle_x_m, middle_y_m = float(force_n @ x_m) / total, float(force_n @ y_m) / total
-        away_m2 = (x_m - middle_x_m) ** 2 + (y_m - middle_y_m) ** 2
+        middle_m = float(force_n @ x_m) / total, float(force_n @ y_m) / total
+        away_m2 = (x_m - middle_m[0]) ** 2 + (y_m - middle_m[1]) ** 2
         spread_m = math.sqrt(float(force_n @ away_m2) / total + touch.spread_m**2)
-        first_s, last_s = float(time_s[0]), float(time_s[-1])
-        return self._samples.footprint(first_s, last_s, middle_x_m, middle_y_m, touch.patch, spread_m)
+        before_s = touch.began_s - self.config.impact_longest_s  # what begins later may be a piece of the same
+        others = [one.area for one in self._touches if one.began_s < before_s and one.patch == touch.patch and one.area]
+        return self._samples.footprint(float(time_s[0]), float(time_s[-1]), *middle_m, touch.patch, spread_m, others)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -278,7 +279,7 @@ class RecentSamples:
         return force_n
 
     def footprint(
-        self, first_s: float, last_s: float, x_m: float, y_m: float, patch: int, spread_m: float
+        self, first_s: float, last_s: float, x_m: float, y_m: float, patch: int, spread_m: float, others: Sequence[Area]
     ) -> Footprint | None:
         """The footprint that was pressed between two frames, both with; None where it cannot be told.
 
@@ -291,6 +292,8 @@ class RecentSamples:
         patch : int
         spread_m : float
             Root mean square distance of the force from there [m].
+        others : sequence of Area
+            Where what pressed before it goes on pressing: what was measured there is not of this one.
         """
         frames = [one for one in self._frames if first_s <= one[0] <= last_s]
         if not frames:
@@ -299,6 +302,8 @@ class RecentSamples:
         taxel = np.concatenate([one[2] for one in frames])
         reach_m = 3.0 * spread_m + _MARGIN_TAXELS * self._geometry.pitch_m
         near = self._lies_near(taxel, x_m, y_m, reach_m, patch)
+        for other in others:
+            near &= ~other.holds(self._x_m[taxel], self._y_m[taxel])
         pressed = near & (counts > self._touch_counts)
         if not pressed.any():
             return None
