@@ -71,9 +71,15 @@ class Checkpoint:
         if not self.path.exists():
             return None
         content = self._file.read(self.path)
+        iteration, atoms = content["iteration"], content["atoms"]
+        is_whole = iteration.ndim == 0 and iteration.dtype.kind in "iu"
+        if not (is_whole and atoms.dtype.kind == "f" and np.isfinite(atoms).all()):
+            raise RecordingError(
+                f"{self.path}: damaged (iteration {iteration.shape}, {iteration.dtype}, atoms {atoms.shape}, "
+                f"{atoms.dtype}: needed are a whole number, and finite ones); {self._file.remedy}"
+            )
         try:
             found = dict(json.loads(str(content["settings"])))
-            iteration = int(content["iteration"])
         except (TypeError, ValueError) as error:
             raise RecordingError(f"{self.path}: damaged ({error}); {self._file.remedy}") from error
         # Convert to JSON and back like the settings in the file: tuples become lists.
@@ -88,7 +94,7 @@ class Checkpoint:
                 f"{self.path}: left by a training with other settings or data ({'; '.join(others)}). Repeat that "
                 f"command to finish it, delete the file to begin anew, or choose another -o"
             )
-        return KsvdState(iteration, np.asarray(content["atoms"], dtype=np.float32))
+        return KsvdState(int(iteration), atoms.astype(np.float32))
 
     def remove(self) -> None:
         """Remove the file after the output was written."""

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
 from acts_recon.learning import KsvdState
@@ -116,6 +117,28 @@ def test_a_training_goes_on_after_the_last_iteration(tmp_path: Path, capsys: pyt
     assert "iteration 2 of 4" not in output
     assert "iteration 3 of 4" in output
     assert load_dictionary(path).sha256 == whole
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("atoms", np.full((50, 64), np.nan)),
+        ("atoms", np.full((50, 64), np.inf)),
+        ("atoms", np.ones((50, 64), dtype=bool)),
+        ("iteration", np.array(np.inf)),
+        ("iteration", np.array([2])),
+    ],
+)
+def test_a_checkpoint_of_what_is_no_training_is_refused(name: str, value: NDArray[np.generic], tmp_path: Path) -> None:
+    """Atoms of NaN were gone on with, and the result was another one; an infinite iteration ended with a traceback."""
+    checkpoint = Checkpoint(tmp_path / "d.npz.partial", {"sparsity": 3})
+    checkpoint.save(KsvdState(2, np.ones((50, 64), dtype=np.float32)))
+    with np.load(checkpoint.path) as arrays:
+        content = {**arrays, name: value}
+    with checkpoint.path.open("wb") as file:
+        np.savez(file, **content)
+    with pytest.raises(RecordingError, match=r"damaged \(iteration .*, atoms .*delete .*d.npz.partial to begin anew"):
+        checkpoint.load()
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
