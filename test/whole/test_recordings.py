@@ -83,6 +83,9 @@ def replay(
     params = npy.with_suffix(".yaml")
     params.write_text(f"/**/reconstruction:\n  ros__parameters:\n    method: {method}\n")
     parts: dict[str, dict[tuple[int, int], object]] = {"samples": {}, "image_raw": {}, "contact": {}}
+    # Kept up to date with each message: to look for whole ones takes longer than a frame lasts, and what comes
+    # meanwhile is lost, of each topic something else.
+    whole: set[tuple[int, int]] = set()
     with launched(
         "acts_bringup",
         "tactile.launch.xml",
@@ -98,23 +101,22 @@ def replay(
 
             def keep(message: object, collected: dict[tuple[int, int], object] = collected) -> None:
                 stamp = message.header.stamp  # type: ignore[attr-defined]
-                collected[(stamp.sec, stamp.nanosec)] = message
+                key = (stamp.sec, stamp.nanosec)
+                collected[key] = message
+                if all(key in part for part in parts.values()):
+                    whole.add(key)
 
             launch.probe.node.create_subscription(kind, f"/plate/{topic}", keep, qos.STREAM)
 
-        def whole() -> list[tuple[int, int]]:
-            return sorted(set.intersection(*(set(part) for part in parts.values())))
-
         def enough() -> bool:
-            # To look for whole ones takes longer than a frame lasts.
-            if min(map(len, parts.values())) < n_frames:
+            if len(whole) < n_frames:
                 return False
             contacts = parts["contact"]
             (began_s, began_ns), (now_s, now_ns) = next(iter(contacts)), next(reversed(contacts))
-            return now_s - began_s + 1e-9 * (now_ns - began_ns) >= lasting_s and len(whole()) >= n_frames
+            return now_s - began_s + 1e-9 * (now_ns - began_ns) >= lasting_s
 
         launch.probe.wait_for(enough, START_S, f"{n_frames} whole frames of {lasting_s:.1f} s")
-        stamps = whole()
+        stamps = sorted(whole)
         assert launch.stop() == 0
     seen = []
     for stamp in stamps:
