@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -24,6 +25,7 @@ from rclpy.task import Future
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, SettingsError, exit_code
 from acts_core.stop_signals import StopSignals
 from acts_ros import middleware
+from acts_ros.executables.middleware_watch import watch_middleware
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
     from rclpy.experimental import EventsExecutor as EventsExecutor
@@ -95,6 +97,7 @@ def run(
         settle()
         for node in nodes:
             _call(node, "begin")
+        watch_middleware(os.environ)
         _spin(executor, signals)
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)

@@ -76,6 +76,12 @@ def init(**options: Any) -> None:
         )
 
 
+def announces_often(environment: Mapping[str, str]) -> bool:
+    """Whether this process announces itself twice a second, as the profiles in ``network`` of acts_config say."""
+    network = packages.share("acts_config", environment) / "network"
+    return any(Path(environment.get(name, "")).parent == network for name in _PROFILES)
+
+
 def reason_of(error: Exception) -> str:
     """What an error of rclpy says, without the lines of ROS's source that it adds."""
     return _SOURCE_PLACE.sub("", str(error))
