@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,35 +15,18 @@ from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
 from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of, require_recovered
 from acts_recon.impacts.config import ImpactConfig
-from acts_recon.impacts.footprint_fit import FORCE_SD, Footprint
-from acts_recon.impacts.impact import UNKNOWN_DIRECTION_SD_RAD, Impact, Kind
-from acts_recon.impacts.onset_fit import follow_back, follow_back_impact
+from acts_recon.impacts.impact import Impact
+from acts_recon.impacts.reports import Reports
 from acts_recon.impacts.samples import RecentSamples
-from acts_recon.impacts.touch import Force, Touch, area_of, impulse_of, lies_along, reach_m_of
-
-Array = NDArray[np.float64]
+from acts_recon.impacts.touch import Touch, area_of, lies_along, reach_m_of
 
 # For how long a touch goes on that no sample speaks of: this, or so many frames.
 _UNSEEN_S, _UNSEEN_FRAMES = 0.02, 2.5
-_UNSURE_S = 0.001
 _NUMBERS = 2**32
 
 
 def _covers(blob: TrackedBlob, x_m: float, y_m: float) -> bool:
     return math.hypot(blob.x_m - x_m, blob.y_m - y_m) <= reach_m_of(blob)
-
-
-def _with_direction(impact: Impact, fitted: Footprint) -> Impact:
-    """The same impact, with the way that its footprint went."""
-    vx, vy = fitted.velocity_m_s.tolist()
-    sd_x, sd_y = np.sqrt(np.diag(fitted.covariance)).tolist()
-    return replace(
-        impact,
-        direction_rad=math.atan2(vy, vx),
-        direction_sd_rad=min(fitted.direction_sd_rad, UNKNOWN_DIRECTION_SD_RAD),
-        velocity_m_s=(vx, vy),
-        velocity_sd_m_s=(sd_x, sd_y),
-    )
 
 
 class ImpactDetector:
@@ -90,6 +72,7 @@ class ImpactDetector:
         self._samples = RecentSamples(
             geometry, response, float(blobs.touch_counts), noise_counts, memory_s, self._borders
         )
+        self._reports = Reports(self._samples, self.config)
         self._touches: list[Touch] = []
         self._next_number = 1
         self._before_s: float | None = None
@@ -187,9 +170,10 @@ class ImpactDetector:
                 touch.add(time_s, blobs, image, self.config)
                 if is_first:
                     if not is_sampled or self._samples.has_come(area_of(blobs), touch.patch):
-                        begun.append(self._so_far(touch))
+                        begun.append(self._reports.so_far(touch))
                     else:
-                        touch.is_told = True  # all there is to tell: nothing
+                        # All there is to tell: nothing.
+                        touch.is_told = True
             elif not touch.frames_seen:
                 # The image goes on showing what was measured before: that is no new touch.
                 self._touches.remove(touch)
@@ -205,7 +189,7 @@ class ImpactDetector:
                 if other.patch == touch.patch and any(self._has_taken(blob, touch, image) for blob in blobs):
                     self._touches.remove(touch)
                     if not touch.is_told:
-                        told.append(self._so_far(touch, joined=other.number, until_s=time_s))
+                        told.append(self._reports.so_far(touch, joined=other.number, until_s=time_s))
                     break
         return told
 
@@ -255,28 +239,6 @@ class ImpactDetector:
         """How far from its centre a touch may be met [m]: of a large contact the centre may be far away."""
         return max(self.config.impact_join_m, touch.reach_m)
 
-    def _so_far(self, touch: Touch, *, joined: int = 0, until_s: float | None = None) -> Impact:
-        """What is known of a touch that has begun, or now becomes a part of another."""
-        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch))
-        return Impact(
-            number=touch.number,
-            is_over=False,
-            kind=Kind.UNKNOWN,
-            joined=joined,
-            onset_s=onset_s,
-            onset_sd_s=onset_sd_s,
-            duration_s=0.0 if until_s is None else max(float(until_s - onset_s), 0.0),
-            frames=touch.frames_seen,
-            x_m=touch.x_m,
-            y_m=touch.y_m,
-            peak_n=touch.peak_n,
-            peak_sd_n=touch.peak_sd_n,
-        )
-
-    def _untouched_before(self, touch: Touch) -> NDArray[np.float64]:
-        first_s = 2 * touch.before_s - touch.began_s
-        return self._samples.untouched_s(*touch.start_m, touch.patch, first_s, touch.first_sample_s)
-
     def _end(self, time_s: float, period_s: float, image: NDArray[np.float32]) -> list[Impact]:
         """Tell of the touches that are over, and of impacts that stay on the skin."""
         config = self.config
@@ -287,20 +249,20 @@ class ImpactDetector:
                 if not touch.is_told:
                     whole = self._whole_of(touch, image)
                     told.append(
-                        self._over(touch, period_s)
+                        self._reports.over(touch, self._touches, period_s, self._frame_s)
                         if whole is None
-                        else self._so_far(touch, joined=whole.number, until_s=time_s)
+                        else self._reports.so_far(touch, joined=whole.number, until_s=time_s)
                     )
                 continue
             still.append(touch)
             is_late = time_s - touch.began_s > config.impact_longest_s
             if is_late and not touch.is_followed_back:
                 touch.is_followed_back = True
-                touch.slow_onset = self._followed_back(touch, time_s)
+                touch.slow_onset = self._reports.slow_onset(touch, time_s)
             rose = touch.peak_s - touch.began_s <= config.impact_rise_s
             if not touch.is_told and is_late and rose and touch.stays_after_impact():
                 touch.is_told = True
-                told.append(self._over(touch, period_s, stays=True))
+                told.append(self._reports.over(touch, self._touches, period_s, self._frame_s, stays=True))
         self._touches = still
         return told
 
@@ -322,79 +284,3 @@ class ImpactDetector:
         top, bottom, left, right = self._borders.rectangles[touch.patch].tolist()
         around = image[max(row - 1, top) : min(row + 2, bottom), max(col - 1, left) : min(col + 2, right)]
         return bool(around.max() > self._touch_counts)
-
-    def _over(self, touch: Touch, period_s: float, *, stays: bool = False) -> Impact:
-        """What a touch was that is over, or an impact that stays on the skin."""
-        is_short = stays or touch.last_s - touch.began_s <= self.config.impact_longest_s
-        course = touch.path()
-        found = self._footprint(touch, *course) if is_short else None
-        x_m, y_m, peak_n, peak_sd_n = touch.peak_x_m, touch.peak_y_m, touch.peak_n, touch.peak_sd_n
-        fitted = found if found is not None and found.is_better_than_images(peak_n, peak_sd_n) else None
-        if fitted is not None:
-            # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
-            course = fitted.time_s, fitted.force_n, *fitted.path(fitted.time_s)
-            top = int(fitted.force_n.argmax())
-            peak_n, x_m, y_m = (float(one[top]) for one in course[1:])
-            peak_sd_n = FORCE_SD * peak_n
-        time_s, force_n, path_x_m, path_y_m = course
-        force = time_s, force_n
-        onset_s, onset_sd_s = self._onset(touch, force, found, is_short)
-        end_s = touch.last_s if stays else self._last_touched(touch, force if is_short else None, period_s)
-        kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, self._frame_s, self.config)
-        impulse_n_s = impulse_of(force, onset_s, end_s if is_short else float(time_s[-1]))
-        told = Impact(
-            number=touch.number,
-            is_over=True,
-            kind=kind,
-            onset_s=onset_s,
-            onset_sd_s=onset_sd_s,
-            duration_s=max(end_s - onset_s, 0.0),
-            frames=touch.frames_seen,
-            x_m=x_m,
-            y_m=y_m,
-            peak_n=peak_n,
-            peak_sd_n=peak_sd_n,
-            bounced=kind is Kind.IMPACT and not stays,
-            impulse_n_s=impulse_n_s,
-            impulse_sd_n_s=FORCE_SD * impulse_n_s if fitted is not None else impulse_n_s * peak_sd_n / peak_n,
-            time_s=time_s,
-            force_n=force_n,
-            path_x_m=path_x_m,
-            path_y_m=path_y_m,
-        )
-        # Along something long no motion is seen.
-        if fitted is None or fitted.is_long or kind is not Kind.IMPACT:
-            return told
-        return _with_direction(told, fitted)
-
-    def _onset(self, touch: Touch, force: Force, fitted: Footprint | None, is_short: bool) -> tuple[float, float]:
-        """When a touch that is over first touched, and the standard deviation [s]."""
-        followed = None if fitted is None else follow_back_impact(fitted)
-        of_images = force if is_short and fitted is None else None
-        onset_s, onset_sd_s = touch.onset(self._untouched_before(touch), of_images, followed)
-        # What taps for long may look like an impact that stays; the onset of one that is none is hardly known so.
-        if touch.slow_onset is not None and (not is_short or onset_sd_s > _UNSURE_S):
-            return touch.slow_onset
-        return onset_s, onset_sd_s
-
-    def _last_touched(self, touch: Touch, force: Force | None, period_s: float) -> float:
-        """When a touch that is over was last touched [s]."""
-        free_s = self._samples.untouched_s(touch.x_m, touch.y_m, touch.patch, touch.last_sample_s, math.inf)
-        return touch.end(free_s, touch.last_sample_s + 1.5 * period_s, force)[0]
-
-    def _followed_back(self, touch: Touch, time_s: float) -> tuple[float, float] | None:
-        """When a touch that is no impact began, and the standard deviation [s]."""
-        first_s = touch.first_sample_s - self.config.impact_longest_s
-        rise = self._samples.rise(
-            first_s, time_s, *touch.start_m, touch.patch, touch.peak_image, self.config.impact_foam_spread_m
-        )
-        return None if rise is None else follow_back(rise)
-
-    def _footprint(self, touch: Touch, time_s: Array, force_n: Array, x_m: Array, y_m: Array) -> Footprint | None:
-        total = float(force_n.sum())
-        middle_m = float(force_n @ x_m) / total, float(force_n @ y_m) / total
-        away_m2 = (x_m - middle_m[0]) ** 2 + (y_m - middle_m[1]) ** 2
-        spread_m = math.sqrt(float(force_n @ away_m2) / total + touch.spread_m**2)
-        before_s = touch.began_s - self.config.impact_longest_s  # what begins later may be a piece of the same
-        others = [one.area for one in self._touches if one.began_s < before_s and one.patch == touch.patch and one.area]
-        return self._samples.footprint(float(time_s[0]), float(time_s[-1]), *middle_m, touch.patch, spread_m, others)
