@@ -19,10 +19,18 @@ export class Replay {
     this.time = element.querySelector("output");
     this.answer = element.querySelector(".answer");
     this.moved_ms = -SETTLE_MS;
+    this.isGrasped = false; // by a finger or the mouse, which may rest
     this.isPlaying = false; // or is to be: what was asked for counts until the server tells
     this.isToldPlaying = false;
     this.asked = 0;
     this.button.onclick = () => this.toggle();
+    this.slider.onpointerdown = ({ pointerId }) => {
+      this.isGrasped = true;
+      this.slider.setPointerCapture(pointerId); // its end counts wherever that is
+    };
+    this.slider.onlostpointercapture = () => {
+      this.isGrasped = false;
+    };
     this.slider.oninput = () => {
       this.moved_ms = performance.now();
       this.#tell(Number(this.slider.value));
@@ -51,7 +59,7 @@ export class Replay {
     const step_s = Number(this.slider.step);
     this.slider.max = Math.ceil(replay.length_s / step_s) * step_s;
     this.length_s = replay.length_s;
-    if (performance.now() - this.moved_ms < SETTLE_MS) return;
+    if (this.isGrasped || performance.now() - this.moved_ms < SETTLE_MS) return;
     this.slider.value = replay.position_s;
     this.#tell(replay.position_s);
   }

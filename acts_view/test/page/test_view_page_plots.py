@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from view_player import Player, pressed, saved_table
 from acts_view.skin.snapshot import Sample, SkinShape
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Locator, Page
 
 pytestmark = [needs_browser, pytest.mark.slow]
 
@@ -74,6 +74,57 @@ def test_a_pause_holds_and_a_part_of_a_plot_can_be_seen_alone(
     page.wait_for_selector(".skin .pill[data-state=live]")
 
 
+def show_a_minute(player: Player) -> None:
+    """Show a skin of which contacts of almost a minute are known, at 250 Hz."""
+    player.server.show_shape("/plate", SkinShape())
+    now_s = time.time()
+    name, frame, _ = pressed("/plate", now_s)
+    samples = [Sample(now_s - 58 + 0.004 * number, 0.5, 0.5, 0) for number in range(14_500)]
+    player.server.show_frame(name, frame, samples)
+
+
+def drag(page: Page, plot: Locator, points: Sequence[tuple[float, float]]) -> None:
+    """Drag a finger over places of a plot, each in shares of its width and height."""
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    assert box is not None
+    places = [{"x": box["x"] + x * box["width"], "y": box["y"] + y * box["height"]} for x, y in points]
+    session = page.context.new_cdp_session(page)
+    kinds = ["touchStart", *["touchMove"] * (len(places) - 1)]
+    for kind, place in zip(kinds, places, strict=True):
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [place]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_finger_chooses_a_part_of_a_plot_and_two_taps_show_all(
+    play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
+) -> None:
+    player = play(())
+    show_a_minute(player)
+    page = open_page(player, 360, 740, is_live=False, has_touch=True, is_mobile=True)
+    expect(page.locator("[data-number=rate]")).to_have_text("250")
+    page.evaluate("document.querySelector('[data-plot=force] .u-over').scrollIntoView({ block: 'center' })")
+    plot = page.locator("[data-plot=force] .u-over")
+    drag(page, plot, [(0.6, 0.5), (0.65, 0.5), (0.75, 0.5), (0.9, 0.5)])
+    page.wait_for_selector(".skin .pill[data-state=held]")
+    few = len(saved_table(page, "plots", tmp_path))
+    for _ in range(2):
+        plot.tap()
+    assert len(saved_table(page, "plots", tmp_path)) > 2 * few
+
+
+def test_a_finger_that_scrolls_the_page_chooses_nothing(
+    play: Callable[..., Player], open_page: Callable[..., Page]
+) -> None:
+    page = open_page(play(), 360, 740, has_touch=True, is_mobile=True)
+    expect(page.locator("[data-number=rate]")).to_have_text("1000")
+    page.evaluate("document.querySelector('[data-plot=force] .u-over').scrollIntoView({ block: 'center' })")
+    before = page.evaluate("window.scrollY")
+    drag(page, page.locator("[data-plot=force] .u-over"), [(0.5, 0.9), (0.55, 0.5), (0.6, -0.5), (0.7, -1.5)])
+    page.wait_for_function(f"window.scrollY > {before}")
+    expect(page.locator(".skin .pill")).to_have_attribute("data-state", "live")
+
+
 def test_keys_zoom_the_plots_and_move_the_part(
     play: Callable[..., Player], open_page: Callable[..., Page], tmp_path: Path
 ) -> None:
@@ -113,11 +164,7 @@ def test_a_part_of_a_plot_shows_all_that_is_known_of_it(
     play: Callable[..., Player], open_page: Callable[..., Page]
 ) -> None:
     player = play(())
-    player.server.show_shape("/plate", SkinShape())
-    now_s = time.time()
-    name, frame, _ = pressed("/plate", now_s)
-    samples = [Sample(now_s - 58 + 0.004 * number, 0.5, 0.5, 0) for number in range(14_500)]
-    player.server.show_frame(name, frame, samples)
+    show_a_minute(player)
     page = open_page(player, is_live=False)
     page.route(
         "**/uPlot.iife.min.js",

@@ -66,6 +66,31 @@ def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_
         shown.close()
 
 
+def test_a_slider_that_is_held_stays_where_it_is_while_the_recording_plays(
+    tmp_path: Path, open_page: Callable[..., Page]
+) -> None:
+    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
+    shown = Shown(source, name)
+    try:
+        page = open_page(shown)
+        beside = open_page(shown)
+        slider, where = page.locator("#replay input"), page.locator("#replay output")
+        box = slider.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        page.mouse.down()
+        expect(where).to_have_text(re.compile(r"^(9\.[5-9]|10\.[0-5]) of"))
+        held_at = where.inner_text()
+        expect(beside.locator("#replay output")).to_have_text(re.compile(r"^1[2-5]\.\d of"))
+        assert where.inner_text() == held_at
+        # Beside it.
+        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 300)
+        page.mouse.up()
+        expect(where).to_have_text(re.compile(r"^1[2-9]\.\d of"))
+    finally:
+        shown.close()
+
+
 def test_where_one_goes_in_a_pause_of_the_page_is_shown_when_it_goes_on(
     tmp_path: Path, open_page: Callable[..., Page]
 ) -> None:

@@ -43,6 +43,7 @@ export class Plots {
       figure.append(caption);
       element.append(figure);
       const plot = new uPlot(options(kind, (from_s, to_s) => this.#choose(from_s, to_s), () => this.reset()), kind.isBars || kind.name === "rate" ? [[], []] : [[], [], []], figure);
+      alsoByFinger(plot.over);
       return { kind, plot, figure };
     });
     new ResizeObserver(() => this.#resize()).observe(element);
@@ -146,6 +147,29 @@ export class Plots {
 function alone(plot, series) {
   const values = plot.data[series];
   return Array.from(values.keys()).filter((at) => values[at] !== null && (values[at - 1] ?? values[at + 1] ?? null) === null);
+}
+
+/** Lets a finger choose as the mouse does, to which alone uPlot listens. */
+function alsoByFinger(over) {
+  let start_px = 0;
+  const asMouse = (type, event, clientX) => {
+    if (event.pointerType === "mouse" || !event.isPrimary) return;
+    // uPlot passes over a mouse that has not moved.
+    over.dispatchEvent(new MouseEvent(type, { bubbles: true, clientX, clientY: event.clientY, movementX: 1 }));
+  };
+  over.addEventListener("pointerdown", (event) => {
+    start_px = event.clientX;
+    asMouse("mousedown", event, start_px);
+  });
+  over.addEventListener("pointermove", (event) => asMouse("mousemove", event, event.clientX));
+  // A finger that is lifted is nowhere.
+  over.addEventListener("pointerup", (event) => {
+    for (const type of ["mouseup", "mouseleave"]) asMouse(type, event, event.clientX);
+  });
+  // The browser scrolls the page instead: back to where it began is no choice.
+  over.addEventListener("pointercancel", (event) => {
+    for (const type of ["mousemove", "mouseup", "mouseleave"]) asMouse(type, event, start_px);
+  });
 }
 
 function options(kind, onZoom, onReset) {
