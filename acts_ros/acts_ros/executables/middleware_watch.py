@@ -85,7 +85,7 @@ def _end() -> NoReturn:
     # Not in order: the middleware would not come to its end. The rest may hang too, as where a terminal is held.
     words = (
         f"error: Fast DDS hangs: its timers have not run for {PATIENCE * PERIOD_S:g} s, so that other processes lose "
-        "this one. It ends, and has to be started again where its launch file does not (docs/faults.md)"
+        "this one. It ends; start it again where no launch file does (docs/faults.md)"
     )
     printing = threading.Thread(target=print, args=(words,), kwargs={"file": sys.stderr, "flush": True}, daemon=True)
     printing.start()

@@ -5,19 +5,16 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Iterator
-from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-import rclpy
+from held_timers import hold_timers
 
 from acts_ros.executables.middleware_watch import PATIENCE, Silence
 from acts_ros.middleware import announces_often
@@ -40,8 +37,6 @@ sys.exit(run([Example]))
 """
 DEADLINE_S = 60.0
 ONE, OTHER = Path("1"), Path("2")
-# From sys/ptrace.h and sys/wait.h.
-SEIZE, INTERRUPT, WALL = 0x4206, 0x4207, 0x40000000
 
 
 @contextmanager
@@ -62,34 +57,9 @@ def running(**variables: str) -> Iterator[subprocess.Popen[str]]:
             process.kill()
 
 
-def hold_timers(process: subprocess.Popen[str]) -> None:
-    """Let the thread of timers of Fast DDS in a child process stand still, as in a deadlock, while all others run."""
-    if not rclpy.get_rmw_implementation_identifier().startswith("rmw_fastrtps"):
-        pytest.skip("only Fast DDS has the thread")
-    tasks = Path(f"/proc/{process.pid}/task").iterdir()
-    (timers,) = (int(task.name) for task in tasks if (task / "comm").read_text().startswith("dds.ev."))
-    held: Future[int] = Future()
-    threading.Thread(target=_trace, args=(timers, held), daemon=True).start()
-    error = held.result(DEADLINE_S)
-    if error:
-        pytest.skip(f"a thread cannot be held here ({os.strerror(error)}): allow ptrace of child processes")
-
-
-def _trace(thread: int, held: Future[int]) -> None:
-    """Hold a thread to its end, for which its tracer has to wait before its process can end."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    for request in (SEIZE, INTERRUPT):
-        if libc.ptrace(request, thread, None, None):
-            held.set_result(ctypes.get_errno())
-            return
-    os.waitpid(thread, WALL)
-    held.set_result(0)
-    os.waitpid(thread, WALL)
-
-
 def test_a_process_whose_middleware_hangs_ends_with_a_word() -> None:
     with running() as process:
-        hold_timers(process)
+        hold_timers(process.pid)
         _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
     assert "error: Fast DDS hangs: its timers have not run for 2 s" in errors
@@ -101,7 +71,7 @@ def test_a_process_whose_profile_is_the_users_is_not_ended(tmp_path: Path) -> No
     profile = tmp_path / "mine.xml"
     profile.write_text('<dds xmlns="http://www.eprosima.com"><profiles/></dds>')
     with running(FASTDDS_DEFAULT_PROFILES_FILE=str(profile), FASTRTPS_DEFAULT_PROFILES_FILE=str(profile)) as process:
-        hold_timers(process)
+        hold_timers(process.pid)
         assert process.stdout is not None
         for _ in range(100):
             assert process.stdout.readline() == "ticking\n"

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -14,6 +15,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from acts_ros import middleware
+from acts_ros.executables.middleware_watch import watch_middleware
 from acts_ros.executor import make_executor
 
 
@@ -48,6 +50,7 @@ def command_node(name: str, make: Callable[[], Executor] = make_executor) -> Ite
         node = rclpy.create_node(name, start_parameter_services=False, enable_rosout=False)
         executor = make()
         executor.add_node(node)
+        watch_middleware(os.environ)
         try:
             yield node, executor
         finally:
