@@ -23,6 +23,8 @@ def hold_timers(pid: int) -> None:
     """Let the thread of timers of Fast DDS in a child process stand still, as in a deadlock, while all others run."""
     if not rclpy.get_rmw_implementation_identifier().startswith("rmw_fastrtps"):
         pytest.skip("only Fast DDS has the thread")
+    if os.environ.get("ROS_DISTRO") == "humble":
+        pytest.skip("on Humble Fast DDS announces a process more rarely, and is not watched")
     tasks = Path(f"/proc/{pid}/task").iterdir()
     (timers,) = (int(task.name) for task in tasks if (task / "comm").read_text().startswith("dds.ev."))
     held: Future[int] = Future()

@@ -78,8 +78,8 @@ def init(**options: Any) -> None:
 
 def announces_often(environment: Mapping[str, str]) -> bool:
     """Whether this process announces itself twice a second, as the profiles in ``network`` of acts_config say."""
-    network = packages.share("acts_config", environment) / "network"
-    return any(Path(environment.get(name, "")).parent == network for name in _PROFILES)
+    profiles = [Path(environment[name]) for name in _PROFILES if environment.get(name)]
+    return any(profile.parent == packages.share("acts_config", environment) / "network" for profile in profiles)
 
 
 def reason_of(error: Exception) -> str:

@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -44,7 +45,12 @@ def watch_middleware(environment: Mapping[str, str]) -> None:
     """
     if not announces_often(environment):
         return
-    timers = [task for task in _TASKS.iterdir() if (task / "comm").read_text().startswith(_TIMERS)]
+    timers = []
+    for task in _TASKS.iterdir():
+        # A thread may just have ended.
+        with suppress(OSError):
+            if (task / "comm").read_text().startswith(_TIMERS):
+                timers.append(task)
     if timers:
         threading.Thread(target=_watch, args=(timers,), name="acts_dds_watch", daemon=True).start()
 
