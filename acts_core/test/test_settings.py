@@ -98,6 +98,9 @@ def test_settings_are_read_as_people_write_them(name: str, text: str, value: Any
         ("depth", 5000 * "9"),
         ("rate_hz", "0x" + 5000 * "f"),
         ("rate_hz", 5000 * "["),
+        ("enabled", "!!bool x"),
+        ("depth", '!!int ""'),
+        ("rate_hz", "!!timestamp x"),
     ],
 )
 def test_a_wrong_text_is_refused_by_the_name_of_its_setting(name: str, text: str) -> None:

@@ -54,3 +54,20 @@ def test_numbers_that_no_message_could_show_and_dates_that_are_none_are_refused(
     (tmp_path / "x.yaml").write_text(text)
     with pytest.raises(SettingsError, match="not valid YAML"):
         read_yaml(tmp_path / "x.yaml")
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("!!bool x", "'x' cannot be read as bool"),
+        ('!!int ""', "'' cannot be read as int"),
+        ("!!float _", "'_' cannot be read as float"),
+        ("!!timestamp x", "'x' cannot be read as timestamp"),
+        ("{b: [1, !!bool x]}", "'x' cannot be read as bool"),
+    ],
+)
+def test_a_value_that_is_not_what_its_tag_says_is_refused_with_its_line(value: str, words: str, tmp_path: Path) -> None:
+    (tmp_path / "x.yaml").write_text(f"c: 1\na: {value}\n")
+    with pytest.raises(SettingsError, match=f"not valid YAML: {words}") as caught:
+        read_yaml(tmp_path / "x.yaml")
+    assert "line 2" in str(caught.value)
