@@ -133,8 +133,11 @@ def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:
 def _require_measured(content: dict[str, NDArray], frames: NDArray, chosen: NDArray[np.intp], path: Path) -> None:
     """Refuse frames of a figure file of which not every taxel was measured."""
     measured = _need(content, "measured", path)
-    if measured.shape != frames.shape:
-        raise RecordingError(f"{path}: measured of shape {measured.shape} for frames of {frames.shape}")
+    if measured.shape != frames.shape or measured.dtype.kind not in "biuf":
+        raise RecordingError(
+            f"{path}: measured of shape {measured.shape}, {measured.dtype}: needed is true or false for each taxel of "
+            f"frames of {frames.shape}"
+        )
     if not measured[chosen].all():
         raise RecordingError(f"{path}: some of the frames are subsampled; choose others, e.g. kind='full_raster'")
 

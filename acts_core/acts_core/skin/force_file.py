@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,13 +46,20 @@ def read_force_points(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float
             missing = [name for name in _NAMES if name not in content]
             if missing:
                 raise SettingsError(f"{path}: no array {missing[0]!r}; needed are `newtons` and `counts`")
-            newtons, counts = (np.asarray(content[name], dtype=np.float64) for name in _NAMES)
+            newtons, counts = (_numbers(path, name, content[name]) for name in _NAMES)
         else:
             raise SettingsError(f"{path}: a force response is a .csv or .npz file of newtons and counts")
     except (ValueError, TypeError, csv.Error) as error:
         raise SettingsError(f"{path}: damaged, or not what its name says ({error})") from error
     _check(path, newtons, counts)
     return newtons, counts
+
+
+def _numbers(path: Path, name: str, given: NDArray[Any]) -> NDArray[np.float64]:
+    if given.dtype.kind not in "iuf":
+        raise SettingsError(f"{path}: {name} of {given.dtype}: needed are numbers")
+    with np.errstate(over="ignore"):  # what is too large for float64 is told as not finite
+        return given.astype(np.float64)
 
 
 def _from_csv(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

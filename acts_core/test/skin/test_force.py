@@ -112,10 +112,11 @@ def test_the_table_of_the_default_is_the_default() -> None:
         ([0.0, 1.0, 2.0], [0.0, 5.0, 4.0], r"fall or stay at 4 \(2 N\)"),
         ([0.0, 1.0, 2.0], [0.0, 5.0, 5.0], "fall or stay"),
         ([0.0, 1.0], [0.0, 0.0], "all counts are 0"),
+        ([0.0, 1.0], [0.0, 5.0 + 1.0j], "counts of complex128: needed are numbers"),
     ],
 )
 def test_points_that_are_no_response_are_refused(
-    tmp_path: Path, newtons: list[float], counts: list[float], words: str
+    tmp_path: Path, newtons: list[float], counts: list[complex], words: str
 ) -> None:
     np.savez(tmp_path / "bad.npz", newtons=newtons, counts=counts)
     with pytest.raises(SettingsError, match=words):
