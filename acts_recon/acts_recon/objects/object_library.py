@@ -245,7 +245,7 @@ def load_object_library(path: Path | str, *, shape: tuple[int, int] | None = Non
         )
     except ObjectLibraryError as error:
         raise ObjectLibraryError(f"{path}: {error}") from None
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ObjectLibraryError(f"{path}: a field has the wrong type ({error}); write the library anew") from error
     if library.sha256 != str(content["sha256"]):
         raise ObjectLibraryError(f"{path}: the content does not fit its hash, the file is damaged; copy it anew")

@@ -144,7 +144,7 @@ def load_dictionary(path: Path | str, *, patch_size: int | None = None) -> Dicti
         )
     except DictionaryError as error:
         raise DictionaryError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from None
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise DictionaryError(f"{path}: a field has the wrong type ({error}); make one with `acts train`") from error
     if dictionary.sha256 != str(content["sha256"]):
         raise DictionaryError(f"{path}: the atoms do not fit their hash, the file is damaged; copy or train it anew")

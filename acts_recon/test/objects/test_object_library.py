@@ -85,6 +85,7 @@ def test_what_was_saved_is_loaded(library: ObjectLibrary, tmp_path: Path) -> Non
         ({"rows": 3}, "6 rows"),
         ({"rows": 65}, "1 to 64"),
         ({"rows": "two"}, "wrong type"),
+        ({"cols": np.inf}, "wrong type"),
         ({"columns": np.ones((4, 3), dtype=np.float32)}, "column 0 has norm 2"),
         ({"columns": np.full((4, 3), np.inf, dtype=np.float32)}, "NaN or infinity"),
         ({"columns": np.full((4, 3), -0.5, dtype=np.float32)}, "negative values"),

@@ -60,6 +60,7 @@ def test_a_file_is_loaded_as_it_should_be(tmp_path: Path) -> None:
         ({"atoms": np.array([[object()]])}, r"atoms is an array of Python objects, .*such as atoms.astype\(str\)"),
         ({"patch_size": 3}, "needed are 9 rows"),
         ({"patch_size": "two"}, "wrong type"),
+        ({"patch_size": np.inf}, "wrong type"),
         ({"settings": "{"}, "wrong type"),
         ({"format": "other"}, "format 'other'"),
         ({"sha256": None}, "lacks sha256"),
