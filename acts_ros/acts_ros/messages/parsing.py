@@ -27,5 +27,10 @@ def message_of(data: bytes, kind: type[_Message]) -> _Message:
     # rclpy has no exception of its own for bytes that are no such message.
     except (RuntimeError, ValueError) as error:
         raise PacketError(str(error)) from error
+    except TypeError as error:
+        # rclpy turns Ctrl-C while the message is made into this.
+        if isinstance(error.__cause__, KeyboardInterrupt):
+            raise error.__cause__ from None
+        raise
     assert isinstance(message, kind)
     return message
