@@ -126,9 +126,10 @@ def _objects_refused(path: Path, name: str, error: type[ActsError]) -> Iterator[
 def npz_names(path: Path) -> frozenset[str]:
     """Names of the arrays of an npz file; none where it cannot be read, of which `read_npz` tells."""
     try:
+        require_regular(path, error=ActsError)
         with zipfile.ZipFile(path) as archive:
             return frozenset(name.removesuffix(".npy") for name in archive.namelist())
-    except (OSError, *_DAMAGED):
+    except (OSError, ActsError, *_DAMAGED):
         return frozenset()
 
 

@@ -18,7 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.files import read_npz, unpacked_bytes
+from acts_core.files import npz_names, read_npz, unpacked_bytes
+from acts_core.runtime import begin
 
 
 def archive() -> bytes:
@@ -82,6 +83,14 @@ def test_how_much_a_file_unpacks_to_is_known_without_unpacking_it(tmp_path: Path
     assert 10**6 < unpacked_bytes(path) < 10**6 + 1000
     os.mkfifo(tmp_path / "pipe")
     assert unpacked_bytes(tmp_path / "pipe") == unpacked_bytes(tmp_path / "none") == 0
+
+
+def test_the_names_of_the_arrays_are_known_and_those_in_a_pipe_not_waited_for(tmp_path: Path) -> None:
+    (tmp_path / "x.npz").write_bytes(WHOLE)
+    os.mkfifo(tmp_path / "pipe.npz")
+    assert npz_names(tmp_path / "x.npz") == {"a", "b", "text"}
+    # On another thread: a test that fails is to end.
+    assert begin(lambda: npz_names(tmp_path / "pipe.npz")).result(timeout=30.0) == frozenset()
 
 
 @pytest.mark.parametrize(
