@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises
     ------
     RecordingError
-        A bag cannot be read, or the output exists already or has no name of its kind.
+        A bag cannot be read, or the output exists, already or meanwhile, or has no name of its kind.
     """
     kind, bags = arguments.kind, arguments.bags
     rate_hz = _rate_hz(arguments)
@@ -95,6 +95,8 @@ def run(arguments: argparse.Namespace) -> int:
             folder = made.enter_context(_folder_beside(output))
         begun = folder / output.name
         write_bags(bags, kind, choice, arguments.task, begun, output)
+        # Somebody may have made it meanwhile; a file would be replaced.
+        _refuse_existing(output)
         with naming(output):
             begun.rename(output)
     print(f"written to {output}")
@@ -133,13 +135,17 @@ def _rate_hz(arguments: argparse.Namespace) -> float:
 def _new_output(arguments: argparse.Namespace) -> Path:
     """Where to write; nothing is there yet."""
     output: Path = arguments.output or _default_output(arguments.bags[0], arguments.kind)
-    # A link to nowhere is in the way of a folder, and would be replaced by a file.
-    if output.is_symlink() or output.exists():
-        raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
+    _refuse_existing(output)
     # What reads a recording tells an npz file by its name.
     if arguments.kind == "npz" and output.suffix != ".npz":
         raise RecordingError(f"'{output}': no name of an npz file; allowed are names that end in .npz")
     return output
+
+
+def _refuse_existing(output: Path) -> None:
+    # A link to nowhere is in the way of a folder, and would be replaced by a file.
+    if output.is_symlink() or output.exists():
+        raise RecordingError(f"'{output}' exists already and is not overwritten: choose another with -o")
 
 
 def _default_output(bag: Path, kind: str) -> Path:

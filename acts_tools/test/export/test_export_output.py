@@ -16,6 +16,7 @@ from test_export import image, pressed, write_bag
 
 from acts_tools.cli import main
 from acts_tools.export import writing
+from acts_tools.export.recording import Recording
 
 
 @pytest.fixture
@@ -70,3 +71,21 @@ def test_a_link_to_nowhere_is_refused_before_any_work(
     assert f"'{link}' exists already and is not overwritten" in said.err
     assert said.out == ""
     assert link.is_symlink()
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv"])
+def test_what_is_made_of_the_same_name_meanwhile_is_not_overwritten(
+    kind: str, bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = tmp_path / "out.npz"
+    write = writing._TABLES[kind]
+
+    def write_beside_another(recording: Recording, path: Path) -> int:
+        output.write_text("of another program")
+        return write(recording, path)
+
+    monkeypatch.setitem(writing._TABLES, kind, write_beside_another)
+    assert main(["export", str(bag), "--to", kind, "-o", str(output)]) == 1
+    assert f"error: '{output}' exists already and is not overwritten" in capsys.readouterr().err
+    assert output.read_text() == "of another program"
+    assert sorted(tmp_path.iterdir()) == [output, bag]
