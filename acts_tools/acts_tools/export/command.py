@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -91,6 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
     # Learning has no use for a NaN: it would spread into the statistics of the dataset.
     choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
     with ExitStack() as made:
+        made.enter_context(_ended_as_by_ctrl_c())
         with naming(output):
             folder = made.enter_context(_folder_beside(output))
         begun = folder / output.name
@@ -101,6 +103,18 @@ def run(arguments: argparse.Namespace) -> int:
             begun.rename(output)
     print(f"written to {output}")
     return 0
+
+
+@contextmanager
+def _ended_as_by_ctrl_c() -> Iterator[None]:
+    """SIGTERM, and SIGHUP of a terminal that is closed, end the block in order; SIGHUP stays ignored under nohup."""
+    taken = [one for one in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(one) is not signal.SIG_IGN]
+    before = {one: signal.signal(one, signal.default_int_handler) for one in taken}
+    try:
+        yield
+    finally:
+        for one, handler in before.items():
+            signal.signal(one, handler)
 
 
 @contextmanager

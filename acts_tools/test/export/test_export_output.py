@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
+import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -89,3 +91,27 @@ def test_what_is_made_of_the_same_name_meanwhile_is_not_overwritten(
     assert f"error: '{output}' exists already and is not overwritten" in capsys.readouterr().err
     assert output.read_text() == "of another program"
     assert sorted(tmp_path.iterdir()) == [output, bag]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_nothing_is_left_of_an_export_that_is_ended(number: signal.Signals, bag: Path, tmp_path: Path) -> None:
+    program = f"""
+import os, signal, sys
+from acts_tools.cli import main
+from acts_tools.export import writing
+
+def write_in_part(recording, folder):
+    folder.mkdir(parents=True)
+    (folder / "frames.csv").write_text("stamp_ns")
+    os.kill(os.getpid(), {int(number)})
+
+# As in a terminal, whatever runs the tests.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
+writing._TABLES["csv"] = write_in_part
+sys.exit(main(["export", {str(bag)!r}, "--to", "csv", "-o", {str(tmp_path / "new" / "out")!r}]))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60.0, check=False)
+    assert (ended.returncode, ended.stderr) == (130, "")
+    assert list(tmp_path.iterdir()) == [bag]
