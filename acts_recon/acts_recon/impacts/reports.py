@@ -78,7 +78,8 @@ class Reports:
         fitted = found if found is not None and found.is_better_than_images(peak_n, peak_sd_n) else None
         if fitted is not None:
             # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
-            course = fitted.time_s, fitted.force_n, *fitted.path(fitted.time_s)
+            path_m = self._samples.on_patch(touch.patch, *fitted.path(fitted.time_s))
+            course = fitted.time_s, fitted.force_n, *path_m
             top = int(fitted.force_n.argmax())
             peak_n, x_m, y_m = (float(one[top]) for one in course[1:])
             peak_sd_n = FORCE_SD * peak_n

@@ -86,7 +86,8 @@ class RecentSamples:
         self._slope_n = slope_table(self._force_n)
         self._noise_counts = noise_counts
         place = np.arange(geometry.size)
-        self._patch_of = (borders or borders_of(geometry.rows, geometry.cols)).rectangle_of
+        borders = borders or borders_of(geometry.rows, geometry.cols)
+        self._patch_of, self._rectangles = borders.rectangle_of, borders.rectangles
         self._x_m, self._y_m = geometry.x_m(place % geometry.cols), geometry.y_m(place // geometry.cols)
         self._frames: deque[tuple[float, Array, NDArray[np.intp], Array]] = deque()
         # Since the last reset: of each taxel in all frames but the newest, and how many samples these have.
@@ -155,6 +156,15 @@ class RecentSamples:
         """Which of these taxels of a patch lie near a place."""
         is_near: NDArray[np.bool_] = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
         return is_near & (self._patch_of[taxel] == patch)
+
+    def on_patch(self, patch: int, x_m: Array, y_m: Array) -> tuple[Array, Array]:
+        """The nearest places on a patch: what lies beyond its border is another patch, or nothing [m]."""
+        top, bottom, left, right = self._rectangles[patch].tolist()
+        geometry = self._geometry
+        return (
+            np.clip(x_m, geometry.x_m(left - 0.5), geometry.x_m(right - 0.5)),
+            np.clip(y_m, geometry.y_m(bottom - 0.5), geometry.y_m(top - 0.5)),
+        )
 
     def untouched_s(self, x_m: float, y_m: float, patch: int, first_s: float, last_s: float) -> Array:
         """When the taxels around a place were measured and not pressed, between two times [s]."""
