@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,7 @@ from pathlib import Path
 import pytest
 from held_timers import hold_timers
 
+from acts_ros.executables import middleware_watch
 from acts_ros.executables.middleware_watch import PATIENCE, Silence
 from acts_ros.middleware import announces_often
 from acts_ros.processes import packages
@@ -85,6 +87,19 @@ def test_a_process_that_runs_stays_and_ends_in_order() -> None:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=DEADLINE_S)
     assert (process.returncode, errors) == (0, "")
+
+
+def test_a_thread_that_ends_while_it_is_looked_at_is_passed_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Its folder, of which the files are gone.
+    (tmp_path / "7").mkdir()
+    monkeypatch.setattr(middleware_watch, "_TASKS", tmp_path)
+    environment = {"AMENT_PREFIX_PATH": os.environ["AMENT_PREFIX_PATH"]}
+    profile = packages.share("acts_config", environment) / "network" / "loopback.xml"
+    assert announces_often(watched := {**environment, "FASTDDS_DEFAULT_PROFILES_FILE": str(profile)})
+    middleware_watch.watch_middleware(watched)
+    assert "acts_dds_watch" not in [thread.name for thread in threading.enumerate()]
 
 
 def test_a_thread_that_wakes_now_and_then_is_not_silent() -> None:
