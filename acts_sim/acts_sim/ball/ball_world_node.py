@@ -36,7 +36,7 @@ from acts_ros.publishers import TolerantPublisher
 from acts_sim.ball.joint_follower import JointFollower, JointSource
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 from acts_sim.ball.world_loop import STEP_NS, LoopStatistics, WorldLoop
-from acts_sim.shared import FileClaim, TimedRingWriter, default_run_dir
+from acts_sim.shared import COMPILING, FileClaim, TimedRingWriter, default_run_dir, telling_of_compiling
 
 _NS_PER_MS = 1_000_000
 
@@ -95,11 +95,12 @@ class BallWorld(Node):
         self._field_ring = Path(settings.field_ring or default_run_dir() / "field.ring")
         joint_ring = settings.joint_ring or str(default_run_dir() / "joints.ring")
         self._joint_ring = None if joint_ring == "none" else Path(joint_ring)
-        # Compiles. What others see is made in `begin`: a signal may come in between.
-        self._world = World(settings)
         self._joints = JointFollower(self._joint_ring)
         self._undo = ExitStack()
         self._diagnostics = DiagnosticsReporter(self, str(self._field_ring), self._report)
+        # Compiles. What others see of the world is made in `begin`: a signal may come in between.
+        with self._diagnostics.busy(COMPILING), telling_of_compiling(self._tell):
+            self._world = World(settings)
 
     def begin(self) -> None:
         """Make the ring, and start the world."""
@@ -117,6 +118,9 @@ class BallWorld(Node):
     def close(self) -> None:
         """Stop the world and remove its ring."""
         self._undo.close()
+
+    def _tell(self, sentence: str) -> None:
+        self.get_logger().info(sentence)
 
     def _enter_realtime(self) -> None:
         enter_realtime(self._settings, "ball_world", log_of(self))

@@ -227,7 +227,7 @@ sys.exit(ball_world_node.main(StopSignals(), [sys.argv[0], *words]))
 """
 
 
-# What compiles, and the last that is made before the node begins.
+# What compiles, the last that is made before the node begins, and what is made before that.
 @pytest.mark.parametrize("name", ["World", "DiagnosticsReporter"])
 def test_a_world_that_is_interrupted_while_it_starts_leaves_nothing(tmp_path: Path, name: str) -> None:
     environment = {**os.environ, "ROS_DOMAIN_ID": "79", "ROS_PYTHON_CHECK_FIELDS": "1"}
@@ -240,6 +240,41 @@ def test_a_world_that_is_interrupted_while_it_starts_leaves_nothing(tmp_path: Pa
     )
     assert finished.returncode == 0, finished.stderr
     assert not list(tmp_path.iterdir())
+
+
+SLOW_TO_COMPILE = """
+import sys
+from acts_sim.ball import ball_world_node
+
+class Slow(ball_world_node.World):
+    def __init__(self, settings):
+        sys.stdin.read()  # until the test has seen what it waits for
+        super().__init__(settings)
+
+ball_world_node.World = Slow
+words = ["--ros-args", "-r", "__ns:=/plate", "-p", f"field_ring:={sys.argv[1]}/field.ring", "-p", "joint_ring:=none"]
+sys.exit(ball_world_node.main(args=[sys.argv[0], *words]))
+"""
+
+
+@pytest.mark.parametrize("observer", [103], indirect=True)
+def test_that_it_compiles_is_told_while_it_does(observer: Observer, tmp_path: Path) -> None:
+    environment = {**os.environ, "ROS_DOMAIN_ID": "103", "ROS_PYTHON_CHECK_FIELDS": "1"}
+    log = tmp_path / "log"
+    with (
+        log.open("w") as file,
+        subprocess.Popen(
+            [sys.executable, "-c", SLOW_TO_COMPILE, str(tmp_path)], env=environment, stdin=subprocess.PIPE, stderr=file
+        ) as process,
+    ):
+        try:
+            observer.until_reported(b"\x01", "compiling: this takes long")
+            observer.until(lambda: "compiling: this takes long" in log.read_text(), what="a line in the log")
+            assert process.stdin is not None
+            process.stdin.close()
+            observer.until_reported(b"\x00", "the ball is")
+        finally:
+            process.kill()
 
 
 @pytest.mark.parametrize("observer", [103], indirect=True)

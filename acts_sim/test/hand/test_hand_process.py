@@ -216,3 +216,39 @@ def test_a_signal_while_the_world_is_made_ends_the_process_in_order_and_at_once(
     command += ["--field-ring", str(tmp_path / "field.ring"), "--truth-ring", str(tmp_path / "truth.ring")]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=50, check=False)
     assert (ended.returncode, ended.stderr) == (0, "")
+
+
+SLOW_TO_COMPILE = """
+import sys
+from acts_core.stop_signals import StopSignals
+from acts_sim.hand.process import main
+
+class Slow(main.HandWorld):
+    def __init__(self, config):
+        sys.stdin.read()  # until the test has seen what it waits for
+        super().__init__(config)
+
+main.HandWorld = Slow
+sys.exit(main.main(StopSignals()))
+"""
+
+
+def test_that_it_compiles_is_told_while_it_does(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", SLOW_TO_COMPILE, "--link", str(tmp_path / "hand")]
+    command += ["--field-ring", str(tmp_path / "field.ring"), "--truth-ring", str(tmp_path / "truth.ring")]
+    command += ["--control", str(tmp_path / "control")]
+    log = tmp_path / "log"
+    with (
+        log.open("w") as file,
+        subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=file, text=True) as process,
+    ):
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            told = "compiling: this takes long the first time on a machine\n"
+            wait_for(lambda: log.read_text() == told, what="a line on standard error")
+            process.stdin.close()
+            assert json.loads(process.stdout.readline())["link"] == str(tmp_path / "hand")
+        finally:
+            process.kill()
+    assert log.read_text() == told

@@ -21,7 +21,15 @@ from acts_core.stop_signals import StopSignals
 from acts_sim.dynamixel import BusPort, ControlSocket, state
 from acts_sim.hand import STEP_S, HandWorld, HandWorldConfig, carry_out, row_width
 from acts_sim.hand.process.loop import HandWorldLoop
-from acts_sim.shared import FileClaim, TimedRingWriter, add_settings, default_run_dir, require_within, settings_from
+from acts_sim.shared import (
+    FileClaim,
+    TimedRingWriter,
+    add_settings,
+    default_run_dir,
+    require_within,
+    settings_from,
+    telling_of_compiling,
+)
 
 TRUTH_SLOTS = 8192
 """Number of steps of truth in the ring: 16 s."""
@@ -70,8 +78,8 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
     with contextlib.ExitStack() as stack:
         for path in (options.field_ring, options.truth_ring, options.link):
             stack.enter_context(contextlib.closing(FileClaim(path)))
-        # Its kernels are compiled here where they are new, which takes long.
-        with signals.interrupting():
+        # Its kernels are compiled here where they are new.
+        with signals.interrupting(), telling_of_compiling(_tell):
             world = HandWorld(config)
         patches = world.layout.patches
         field = stack.enter_context(TimedRingWriter(options.field_ring, len(world.forces_n)))
@@ -84,9 +92,13 @@ def run(options: argparse.Namespace, config: HandWorldConfig, signals: StopSigna
         signals.on_stop(lambda: port.stop(after_client=signals.first is not signal.SIGTERM))
         control = ControlSocket(options.control, lambda line: answer(world, loop, port, line))
         stack.enter_context(contextlib.closing(control))
-        enter_realtime(scheduling, "all of it", lambda _level, sentence: print(sentence, file=sys.stderr, flush=True))
+        enter_realtime(scheduling, "all of it", lambda _level, sentence: _tell(sentence))
         print(json.dumps({"port": port.path, "link": str(options.link)}), flush=True)
         port.run(control)
+
+
+def _tell(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
 
 
 _OF_THE_PROCESS = ("unplug", "plug_in", "state")
