@@ -124,6 +124,15 @@ class Parser(argparse.ArgumentParser):
         # For `acts_tools.arguments.refuse_unused`.
         self.set_defaults(default_of=self.get_default)
 
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> tuple[Any, list[str]]:
+        """Refuse unknown words here, with the usage of this command: argparse leaves that to ``acts`` as a whole."""
+        parsed, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return parsed, unknown
+
 
 def _build_parser(selected: str | None) -> tuple[argparse.ArgumentParser, ModuleType | None]:
     parser = Parser(
