@@ -227,8 +227,11 @@ def test_keys_that_are_asked_for_and_not_there_are_told_with_what_to_do(tmp_path
 
 def test_ros_starts_in_a_folder_that_was_removed(tmp_path: Path) -> None:
     (tmp_path / "gone").mkdir()
+    # In a file, as programs are: of -c, Python 3.13.0 itself looks for modules in the folder, and fails.
+    program = tmp_path / "program.py"
+    program.write_text("import os; os.rmdir(os.getcwd())\nfrom acts_ros import middleware; middleware.init()")
     result = subprocess.run(
-        [sys.executable, "-c", "import os; os.rmdir(os.getcwd())\nfrom acts_ros import middleware; middleware.init()"],
+        [sys.executable, program],
         cwd=tmp_path / "gone",
         env={**os.environ, "ROS_DOMAIN_ID": "201"},
         capture_output=True,

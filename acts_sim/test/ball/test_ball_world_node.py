@@ -227,7 +227,7 @@ sys.exit(ball_world_node.main(StopSignals(), [sys.argv[0], *words]))
 """
 
 
-# What compiles, the last that is made before the node begins, and what is made before that.
+# What is made last before the node begins, which compiles, and what is made before it.
 @pytest.mark.parametrize("name", ["World", "DiagnosticsReporter"])
 def test_a_world_that_is_interrupted_while_it_starts_leaves_nothing(tmp_path: Path, name: str) -> None:
     environment = {**os.environ, "ROS_DOMAIN_ID": "79", "ROS_PYTHON_CHECK_FIELDS": "1"}
