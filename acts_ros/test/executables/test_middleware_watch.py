@@ -97,7 +97,8 @@ def test_a_thread_that_ends_while_it_is_looked_at_is_passed_over(
     monkeypatch.setattr(middleware_watch, "_TASKS", tmp_path)
     environment = {"AMENT_PREFIX_PATH": os.environ["AMENT_PREFIX_PATH"]}
     profile = packages.share("acts_config", environment) / "network" / "loopback.xml"
-    assert announces_often(watched := {**environment, "FASTDDS_DEFAULT_PROFILES_FILE": str(profile)})
+    watched = {**environment, "FASTDDS_DEFAULT_PROFILES_FILE": str(profile)}
+    assert announces_often(watched)
     middleware_watch.watch_middleware(watched)
     assert "acts_dds_watch" not in [thread.name for thread in threading.enumerate()]
 
