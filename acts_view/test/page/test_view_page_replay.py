@@ -31,90 +31,84 @@ if TYPE_CHECKING:
 pytestmark = [needs_browser, pytest.mark.slow]
 
 
-def test_a_recording_is_held_and_one_can_go_anywhere_in_it(tmp_path: Path, open_page: Callable[..., Page]) -> None:
+@pytest.fixture
+def shown(tmp_path: Path) -> Iterator[Shown]:
+    """A recording of 20 s that plays: 2 frames a second, 900 counts from the seventh on."""
     source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
-    shown = Shown(source, name)
-    try:
-        page = open_page(shown)
-        peak = page.locator("[data-number=peak]")
-        bar = page.locator("#replay")
-        button, slider, where = bar.locator("button"), bar.locator("input"), bar.locator("output")
-        expect(bar.locator(".name")).to_have_text("press.npz")
-        expect(page.locator("#note")).to_contain_text("nothing to record")
-        expect(page.locator("#recording")).to_be_hidden()
-        button.click()
-        expect(button).to_have_text("Play")
-        page.wait_for_selector(".skin .pill[data-state=held]")
-        # 900 counts from the seventh frame on, at 2 Hz.
-        slider.fill("10")
-        expect(where).to_have_text("10.0 of 20.0 s")
-        expect(peak).to_have_text(re.compile("^[89]..$"))
-        slider.fill("0")
-        expect(peak).to_have_text(re.compile("^[23]..$"))
-        # The slider still has the focus.
-        page.keyboard.press("s")
-        expect(page.locator("#scale")).to_have_value("adaptive")
-        page.keyboard.press(" ")
-        expect(button).to_have_text("Hold")
-        page.keyboard.press(" ")
-        expect(button).to_have_text("Play")
-        page.focus("canvas.marks")
-        page.keyboard.press(" ")
-        expect(button).to_have_text("Hold")
-        page.wait_for_selector(".skin .pill[data-state=live]")
-    finally:
-        shown.close()
+    made = Shown(source, name)
+    yield made
+    made.close()
+
+
+def test_a_recording_is_held_and_one_can_go_anywhere_in_it(shown: Shown, open_page: Callable[..., Page]) -> None:
+    page = open_page(shown)
+    peak = page.locator("[data-number=peak]")
+    bar = page.locator("#replay")
+    button, slider, where = bar.locator("button"), bar.locator("input"), bar.locator("output")
+    expect(bar.locator(".name")).to_have_text("press.npz")
+    expect(page.locator("#note")).to_contain_text("nothing to record")
+    expect(page.locator("#recording")).to_be_hidden()
+    button.click()
+    expect(button).to_have_text("Play")
+    page.wait_for_selector(".skin .pill[data-state=held]")
+    # 900 counts from the seventh frame on, at 2 Hz.
+    slider.fill("10")
+    expect(where).to_have_text("10.0 of 20.0 s")
+    expect(peak).to_have_text(re.compile("^[89]..$"))
+    slider.fill("0")
+    expect(peak).to_have_text(re.compile("^[23]..$"))
+    # The slider still has the focus.
+    page.keyboard.press("s")
+    expect(page.locator("#scale")).to_have_value("adaptive")
+    page.keyboard.press(" ")
+    expect(button).to_have_text("Hold")
+    page.keyboard.press(" ")
+    expect(button).to_have_text("Play")
+    page.focus("canvas.marks")
+    page.keyboard.press(" ")
+    expect(button).to_have_text("Hold")
+    page.wait_for_selector(".skin .pill[data-state=live]")
 
 
 def test_a_slider_that_is_held_stays_where_it_is_while_the_recording_plays(
-    tmp_path: Path, open_page: Callable[..., Page]
+    shown: Shown, open_page: Callable[..., Page]
 ) -> None:
-    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
-    shown = Shown(source, name)
-    try:
-        page = open_page(shown)
-        beside = open_page(shown)
-        slider, where = page.locator("#replay input"), page.locator("#replay output")
-        box = slider.bounding_box()
-        assert box is not None
-        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-        page.mouse.down()
-        expect(where).to_have_text(re.compile(r"^(9\.[5-9]|10\.[0-5]) of"))
-        held_at = where.inner_text()
-        expect(beside.locator("#replay output")).to_have_text(re.compile(r"^1[2-5]\.\d of"))
-        assert where.inner_text() == held_at
-        # Beside it.
-        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 300)
-        page.mouse.up()
-        expect(where).to_have_text(re.compile(r"^1[2-9]\.\d of"))
-    finally:
-        shown.close()
+    page = open_page(shown)
+    beside = open_page(shown)
+    slider, where = page.locator("#replay input"), page.locator("#replay output")
+    box = slider.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    expect(where).to_have_text(re.compile(r"^(9\.[5-9]|10\.[0-5]) of"))
+    held_at = where.inner_text()
+    expect(beside.locator("#replay output")).to_have_text(re.compile(r"^1[2-5]\.\d of"))
+    assert where.inner_text() == held_at
+    # Beside it.
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 300)
+    page.mouse.up()
+    expect(where).to_have_text(re.compile(r"^1[2-9]\.\d of"))
 
 
 def test_where_one_goes_in_a_pause_of_the_page_is_shown_when_it_goes_on(
-    tmp_path: Path, open_page: Callable[..., Page]
+    shown: Shown, open_page: Callable[..., Page]
 ) -> None:
-    source, name = open_recorded(write_frames(tmp_path / "press.npz", 40), [], "square")
-    shown = Shown(source, name)
-    try:
-        page = open_page(shown)
-        beside = open_page(shown)
-        page.click("#replay button")
-        expect(page.locator("#replay button")).to_have_text("Play")
-        page.locator("#replay input").fill("0")
-        peak = page.locator("[data-number=peak]")
-        expect(peak).to_have_text(re.compile("^[23]..$"))
-        page.click("#pause")
-        page.locator("#replay input").fill("10")
-        # 900 counts from the seventh frame on, at 2 Hz; nothing more comes of what is held.
-        expect(beside.locator("[data-number=peak]")).to_have_text(re.compile("^[89]..$"))
-        expect(page.locator("#replay output")).to_have_text("10.0 of 20.0 s")
-        expect(page.locator("#replay .answer")).to_have_text("this page is paused: Go on shows it")
-        page.click("#pause")
-        expect(page.locator("#replay .answer")).to_be_hidden()
-        expect(peak).to_have_text(re.compile("^[89]..$"))
-    finally:
-        shown.close()
+    page = open_page(shown)
+    beside = open_page(shown)
+    page.click("#replay button")
+    expect(page.locator("#replay button")).to_have_text("Play")
+    page.locator("#replay input").fill("0")
+    peak = page.locator("[data-number=peak]")
+    expect(peak).to_have_text(re.compile("^[23]..$"))
+    page.click("#pause")
+    page.locator("#replay input").fill("10")
+    # 900 counts from the seventh frame on, at 2 Hz; nothing more comes of what is held.
+    expect(beside.locator("[data-number=peak]")).to_have_text(re.compile("^[89]..$"))
+    expect(page.locator("#replay output")).to_have_text("10.0 of 20.0 s")
+    expect(page.locator("#replay .answer")).to_have_text("this page is paused: Go on shows it")
+    page.click("#pause")
+    expect(page.locator("#replay .answer")).to_be_hidden()
+    expect(peak).to_have_text(re.compile("^[89]..$"))
 
 
 def test_what_is_saved_of_a_bag_has_the_time_of_its_stamps(tmp_path: Path, open_page: Callable[..., Page]) -> None:
