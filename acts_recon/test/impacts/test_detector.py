@@ -6,68 +6,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from told_impacts import SAMPLE_S, Array, bump, told_of
 
 from acts_core.array import ArrayGeometry
-from acts_core.sampling import Sampler, SamplingConfig
+from acts_core.sampling import SamplingConfig
 from acts_core.skin import ForceResponse, MeasuredForceResponse
 from acts_recon.impacts import UNKNOWN_DIRECTION_SD_RAD, Impact, ImpactConfig, ImpactDetector, Kind
 from acts_recon.impacts.footprint_fit import fit_footprint
 from acts_recon.impacts.onset_fit import follow_back
 from acts_recon.impacts.samples import RecentSamples
 from acts_recon.impacts.touch import Touch
-from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
+from acts_recon.settings import ReconstructionSettings
 
-Array = NDArray[np.float64]
-
-SAMPLE_S = 18e-6
 # A taxel that reads 100 counts before it is pressed.
 FLAT = MeasuredForceResponse(np.array([0.0, 1.0, 5.0]), np.array([100.0, 300.0, 900.0]))
-
-
-def bump(rows: int, cols: int, row: float, col: float, width: float) -> Array:
-    """A round contact of 1 at its middle."""
-    at_row, at_col = np.indices((rows, cols))
-    bumped: Array = np.exp(-((at_row - row) ** 2 + (at_col - col) ** 2) / (2 * width**2))
-    return bumped
-
-
-def told_of(
-    settings: ReconstructionConfig,
-    sampling: SamplingConfig,
-    pressure: Callable[[float], Array],
-    seconds: float,
-    lost_s: tuple[float, float] = (0.0, 0.0),
-) -> list[Impact]:
-    """What is told of a skin that is sampled taxel by taxel; frames that begin within `lost_s` never arrive."""
-    rng = np.random.default_rng(1)
-    recovery = settings.recovery()
-    detector = settings.impact_detector(recovery)
-    sampler = Sampler(sampling)
-    frame_s = (sampling.m + 1) * SAMPLE_S
-    told: list[Impact] = []
-    for begin_s in np.arange(0.0, seconds, frame_s):
-        next_s = float(begin_s)
-
-        def measure(row: int, col: int) -> int:
-            nonlocal next_s
-            next_s += SAMPLE_S
-            return min(max(round(float(pressure(next_s)[row, col] + 2 * rng.standard_normal())), 0), 1023)
-
-        indices, counts = sampler.frame(measure)
-        if lost_s[0] <= begin_s < lost_s[1]:
-            continue
-        end_s = 100.0 + begin_s + frame_s
-        recovery.step(indices, counts, end_s, sampling.m * SAMPLE_S)
-        told += detector.step(
-            end_s, sampling.m * SAMPLE_S, recovery.image, recovery.sigma, recovery.age_s, recovery.measured
-        )
-    return told
 
 
 @pytest.mark.parametrize("scheme", ["tracking", "adaptive"])
@@ -212,36 +167,6 @@ def test_on_a_single_row_of_taxels_no_direction_is_known(rows: int, cols: int) -
     assert over.direction_sd_rad == UNKNOWN_DIRECTION_SD_RAD
     assert over.peak_n > 0
     assert np.isfinite([*over.time_s, *over.force_n, *over.path_x_m, *over.path_y_m]).all()
-
-
-@pytest.mark.parametrize("scheme", ["tracking", "adaptive", "random"])
-def test_what_presses_the_patch_beside_has_no_part_in_an_impact(scheme: str, tmp_path: Path) -> None:
-    skin = tmp_path / "two.yaml"
-    skin.write_text(
-        "matrix: [32, 32]\npitch_m: 0.004375\npatches:\n"
-        "  left: {at: [0, 0], wires: {down: rows, across: cols 0 to 15}}\n"
-        "  right: {at: [0, 16], wires: {down: rows, across: cols 16 to 31}}\n"
-    )
-    settings = ReconstructionSettings(layout=str(skin), touch_counts=25)
-
-    def impact_beside(counts: float) -> Impact:
-        def pressure(time_s: float) -> Array:
-            share = (time_s - 0.2) / 0.008
-            pressed = np.zeros((32, 32))
-            if 0 < share < 1:
-                pressed[:, :16] = 700 * math.sin(math.pi * share) * bump(32, 32, 10, 12 + 2 * share, 1.8)[:, :16]
-            pressed[7:14, 16:19] = counts
-            return pressed
-
-        told = told_of(settings, SamplingConfig(scheme, 32, 32, 128, threshold_counts=25), pressure, 0.3)
-        (impact,) = (one for one in told if one.kind is Kind.IMPACT)
-        return impact
-
-    alone, beside = impact_beside(0.0), impact_beside(500.0)
-    assert beside.x_m == pytest.approx(alone.x_m, abs=0.003)
-    assert beside.duration_s == pytest.approx(alone.duration_s, abs=0.002)
-    assert beside.peak_n == pytest.approx(alone.peak_n, rel=0.5)
-    assert beside.velocity_m_s[0] == pytest.approx(alone.velocity_m_s[0], abs=0.3)
 
 
 def told_of_a_square(detector: ImpactDetector, counts: float) -> list[Impact]:

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""An impact whose middle lies beyond the border of the patch that it presses."""
+"""An impact at the border of two patches belongs to the one that it presses, and to that alone."""
 
 from __future__ import annotations
 
@@ -10,29 +10,35 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-from test_detector import bump, told_of
+from told_impacts import Array, bump, told_of
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
-from acts_recon.impacts import Kind
-from acts_recon.settings import ReconstructionSettings
+from acts_recon.impacts import Impact, Kind
+from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("col", "width"), [(16.8, 1.8), (17.5, 2.5)])
-def test_an_impact_is_told_on_the_patch_that_it_presses(col: float, width: float, tmp_path: Path) -> None:
-    """What lies beside it in the picture may be another finger."""
+@pytest.fixture
+def settings(tmp_path: Path) -> ReconstructionConfig:
+    """A skin of two patches that lie beside one another in the picture."""
     skin = tmp_path / "two.yaml"
     skin.write_text(
         "matrix: [32, 32]\npitch_m: 0.004375\npatches:\n"
         "  left: {at: [0, 0], wires: {down: rows, across: cols 0 to 15}}\n"
         "  right: {at: [0, 16], wires: {down: rows, across: cols 16 to 31}}\n"
     )
-    settings = ReconstructionSettings(layout=str(skin), touch_counts=25)
+    return ReconstructionSettings(layout=str(skin), touch_counts=25)
 
-    def pressure(time_s: float) -> NDArray[np.float64]:
+
+@pytest.mark.parametrize(("col", "width"), [(16.8, 1.8), (17.5, 2.5)])
+def test_an_impact_is_told_on_the_patch_that_it_presses(
+    col: float, width: float, settings: ReconstructionConfig
+) -> None:
+    """What lies beside it in the picture may be another finger."""
+
+    def pressure(time_s: float) -> Array:
         share = (time_s - 0.2) / 0.008
         pressed = np.zeros((32, 32))
         if 0 < share < 1:
@@ -45,3 +51,25 @@ def test_an_impact_is_told_on_the_patch_that_it_presses(col: float, width: float
     inner_m, border_m = ArrayGeometry(32, 32, 0.004375).x_m([13.0, 15.5])
     assert inner_m < impact.x_m <= border_m
     assert max(impact.path_x_m) <= border_m
+
+
+@pytest.mark.parametrize("scheme", ["tracking", "adaptive", "random"])
+def test_what_presses_the_patch_beside_has_no_part_in_an_impact(scheme: str, settings: ReconstructionConfig) -> None:
+    def impact_beside(counts: float) -> Impact:
+        def pressure(time_s: float) -> Array:
+            share = (time_s - 0.2) / 0.008
+            pressed = np.zeros((32, 32))
+            if 0 < share < 1:
+                pressed[:, :16] = 700 * math.sin(math.pi * share) * bump(32, 32, 10, 12 + 2 * share, 1.8)[:, :16]
+            pressed[7:14, 16:19] = counts
+            return pressed
+
+        told = told_of(settings, SamplingConfig(scheme, 32, 32, 128, threshold_counts=25), pressure, 0.3)
+        (impact,) = (one for one in told if one.kind is Kind.IMPACT)
+        return impact
+
+    alone, beside = impact_beside(0.0), impact_beside(500.0)
+    assert beside.x_m == pytest.approx(alone.x_m, abs=0.003)
+    assert beside.duration_s == pytest.approx(alone.duration_s, abs=0.002)
+    assert beside.peak_n == pytest.approx(alone.peak_n, rel=0.5)
+    assert beside.velocity_m_s[0] == pytest.approx(alone.velocity_m_s[0], abs=0.3)
