@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from told_impacts import SAMPLE_S, Array, bump
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import Sampler, SamplingConfig
@@ -18,21 +19,12 @@ from acts_recon.settings import ReconstructionSettings
 
 pytestmark = pytest.mark.slow
 
-Array = NDArray[np.float64]
 Samples = list[tuple[NDArray[np.uint16], Array]]
 
 ROWS, COLS, M = 32, 32, 64
-SAMPLE_S = 18e-6
 FRAME_S = 0.0012
 SETTINGS = ReconstructionSettings(rows=ROWS, cols=COLS, noise_counts=2.0)
 X_M = ArrayGeometry(ROWS, COLS).x_m(np.arange(COLS))
-
-
-def bump(row: float, col: float, width: float) -> Array:
-    """A round contact of 1 at its middle."""
-    at_row, at_col = np.indices((ROWS, COLS))
-    bumped: Array = np.exp(-((at_row - row) ** 2 + (at_col - col) ** 2) / (2 * width**2))
-    return bumped
 
 
 def sampled(ball: Array, body: Array, onset_s: float) -> tuple[Samples, Samples]:
@@ -77,7 +69,7 @@ def told_of(samples: Samples) -> Impact:
 @pytest.mark.parametrize("apart", [8.5, 9.5])
 def test_what_rests_beside_an_impact_has_no_part_in_it(apart: float, onset_ms: float) -> None:
     """Its samples were fitted as if they were of the ball: up to ten times the force, or half of it."""
-    ball, body = 500 * bump(15, 7, 1.7), 500 * bump(15, 7 + apart, 1.3)
+    ball, body = 500 * bump(ROWS, COLS, 15, 7, 1.7), 500 * bump(ROWS, COLS, 15, 7 + apart, 1.3)
     beside, alone = (told_of(samples) for samples in sampled(ball, body, 1e-3 * onset_ms))
     assert beside.kind == alone.kind
     assert beside.peak_n == pytest.approx(alone.peak_n, rel=0.1)
