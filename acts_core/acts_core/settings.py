@@ -201,8 +201,8 @@ def from_text(settings_class: type, name: str, text: str) -> SettingValue:
 def _from_yaml(text: str) -> Any:
     try:
         value = yaml.load(text, YamlLoader)
-    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
-        # ValueError: a time stamp such as 2024-13-45, or see `YamlLoader`; a tag with what it cannot be: `!!bool x`.
+    except (yaml.YAMLError, ValueError, RecursionError):
+        # ValueError: a time stamp such as 2024-13-45, or see `YamlLoader`.
         return text
     if isinstance(value, str):
         with suppress(ValueError):

@@ -31,19 +31,6 @@ _LARGEST_ANGLE_RAD = 2 * math.pi + 1e-3
 Keys = tuple[object, ...]
 
 
-class _Loader(YamlLoader):
-    """Refuses a value that is not what its tag says, such as ``!!bool x``, as what is no YAML."""
-
-    def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
-        try:
-            return super().construct_object(node, deep)
-        except (LookupError, AttributeError) as error:
-            kind = node.tag.rpartition(":")[2]
-            raise yaml.constructor.ConstructorError(
-                None, None, f"{shown(node.value)} cannot be read as {kind}", node.start_mark
-            ) from error
-
-
 @dataclass(frozen=True)
 class Section:
     """A mapping in a YAML file, and where it stands.
@@ -216,7 +203,7 @@ def read_yaml(path: Path) -> Section:
     text = read_text(path, error=SettingsError, hint="give an existing YAML file", limit_bytes=_BYTES_MAX)
     lines: dict[Keys, int] = {}
     try:
-        loader = _Loader(text)
+        loader = YamlLoader(text)
         try:
             node = loader.get_single_node()
             if node is not None:

@@ -136,9 +136,8 @@ def _yaml(text: str, type_name: str | None, embedded: bool) -> Scalar | list[Sca
         if embedded:
             return text
         raise _mismatch(text, type_name) from error
-    except (ValueError, LookupError, AttributeError, RecursionError) as error:
-        # A time stamp such as 2024-13-45, or see `YamlLoader`; a tag with what it cannot be, such as `!!bool x`;
-        # thousands of brackets. No substitution makes that right.
+    except (ValueError, RecursionError) as error:
+        # A time stamp such as 2024-13-45, or see `YamlLoader`; thousands of brackets. No substitution makes that right.
         raise _mismatch(text, type_name) from error
     if isinstance(value, list):
         kinds = {type(item) for item in value}
