@@ -18,6 +18,7 @@ from acts_core.files.frames_file import (
 )
 from acts_core.files.model_file import ModelFile
 from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
+from acts_core.files.private_files import FileClaim, make_private
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
 from acts_core.files.whole_file import write_whole
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
@@ -27,6 +28,7 @@ __all__ = [
     "TEXT_BYTES_MAX",
     "UNPACKED_BYTES_MAX",
     "ExportedRecording",
+    "FileClaim",
     "FramesFile",
     "ModelFile",
     "Section",
@@ -36,6 +38,7 @@ __all__ = [
     "is_rate",
     "is_there",
     "load_frames",
+    "make_private",
     "npz_names",
     "path_of",
     "read_npz",

@@ -10,7 +10,7 @@ are 512 ms at the 500 Hz of the simulated worlds.
 from acts_sim.shared.compiling import COMPILING, telling_of_compiling
 from acts_sim.shared.lines import LineSession
 from acts_sim.shared.options import add_settings, require_within, settings_from
-from acts_sim.shared.run_folder import FileClaim, default_run_dir, make_private
+from acts_sim.shared.run_folder import FileClaim, default_run_dir
 from acts_sim.shared.timed_ring import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
 __all__ = [
@@ -22,7 +22,6 @@ __all__ = [
     "TimedRingWriter",
     "add_settings",
     "default_run_dir",
-    "make_private",
     "require_within",
     "settings_from",
     "telling_of_compiling",
