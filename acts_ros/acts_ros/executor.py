@@ -65,7 +65,8 @@ def run(
     ----------
     factories : sequence of callables
         Each makes one node; all of them run in this process on one executor. A node may define ``begin()``, called
-        when all nodes have been made, and ``close()``, called before it is destroyed.
+        when all nodes have been made, ``failed()``, called where an error ends the process, and ``close()``, called
+        before it is destroyed.
     args : sequence of str or None
         Command line; None for ``sys.argv``.
     signals : StopSignals or None
@@ -85,6 +86,7 @@ def run(
     )
     executor = make_executor()
     nodes: list[Node] = []
+    has_failed = True
     try:
         # Until all is settled: what nodes are made of stays.
         gc.disable()
@@ -99,6 +101,7 @@ def run(
             _call(node, "begin")
         watch_middleware(os.environ)
         _spin(executor, signals)
+        has_failed = False
     except ActsError as error:
         print(f"error: {error}", file=sys.stderr, flush=True)
         return exit_code(error)
@@ -107,16 +110,17 @@ def run(
         print(f"error: {error} (on the command line or in a params file)", file=sys.stderr, flush=True)
         return REFUSED_EXIT_CODE
     except KeyboardInterrupt:
+        has_failed = False
         return 0
     finally:
         # What a start leaves that was broken off while it compiled would be searched for garbage for seconds.
         gc.freeze()
         gc.enable()
-        _end(executor, nodes, signals)
+        _end(executor, nodes, signals, has_failed=has_failed)
     return 0
 
 
-def _end(executor: Executor, nodes: Sequence[Node], signals: StopSignals) -> None:
+def _end(executor: Executor, nodes: Sequence[Node], signals: StopSignals, *, has_failed: bool) -> None:
     """Close all nodes, the last one first, and what they run on; an error of one leaves out none of the others."""
     with ExitStack() as ends:
         ends.callback(signals.ended)
@@ -126,6 +130,8 @@ def _end(executor: Executor, nodes: Sequence[Node], signals: StopSignals) -> Non
         for node in nodes:
             ends.callback(node.destroy_node)
             ends.callback(_call, node, "close")
+            if has_failed:
+                ends.callback(_call, node, "failed")
 
 
 def spin_for(executor: Executor, seconds: float) -> None:

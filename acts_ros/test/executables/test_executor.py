@@ -53,6 +53,11 @@ class Example(Node):
 
     def begin(self):
         print("begun", flush=True)
+        if "late" in sys.argv:
+            raise errors.RobotError("it has gone")
+
+    def failed(self):
+        print("failed", flush=True)
 
     def close(self):
         if "stubborn" in sys.argv:
@@ -180,6 +185,13 @@ def test_an_error_at_start_is_one_line_and_the_exit_code_tells_whether_to_try_ag
     assert output == ""
 
 
+def test_a_node_is_told_that_an_error_ends_it_before_it_is_closed() -> None:
+    with started("late") as process:
+        output, errors = process.communicate(timeout=60)
+    assert (output, errors) == ("begun\nfailed\nclosed\n", "error: it has gone\n")
+    assert process.returncode == 1
+
+
 @pytest.mark.parametrize("value", ["1", "[]", "maybe"])
 def test_a_parameter_of_ros_of_the_wrong_type_is_refused_in_one_line(value: str) -> None:
     with started("--ros-args", "-p", f"use_sim_time:={value}") as process:
@@ -193,7 +205,7 @@ def test_a_parameter_of_ros_of_the_wrong_type_is_refused_in_one_line(value: str)
 def test_two_nodes_of_one_name_are_refused() -> None:
     with started("two") as process:
         output, errors = process.communicate(timeout=60)
-    assert output == "closed\nclosed\n"
+    assert output == "failed\nclosed\nfailed\nclosed\n"
     error = errors.splitlines()[-1]
     assert error.startswith("error: two nodes of this process are named /example: __node, ")
     assert process.returncode == REFUSED_EXIT_CODE
