@@ -18,7 +18,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from acts_core.errors import ActsError, SettingsError
-from acts_core.runtime.process_names import process_name
+from acts_core.runtime import process_name
 
 # Programs of a launch that was killed end shortly after it.
 _WAIT_S = 1.0

@@ -80,14 +80,17 @@ class Baseline:
         return cls(nothing, nothing, np.zeros((rows, cols), dtype=np.bool_), BaselineSource.NONE, 0)
 
     def save(self, path: Path) -> None:
-        """Write an npz file; an older one is replaced only by a whole new one.
+        """Write the file of a calibration; an older one is replaced only by a whole new one.
 
         Raises
         ------
         SettingsError
             When it cannot be written.
         """
-        hint = "the baseline cannot be saved there: set calibration_file to a path that can be written"
+        self.write(path, "the baseline cannot be saved there: set calibration_file to a path that can be written")
+
+    def write(self, path: Path, hint: str) -> None:
+        """Write an npz file, as `save` does; where it cannot be written, `hint` tells what to do."""
         with write_whole(path, error=SettingsError, hint=hint, makes_folder=True) as file:
             np.savez(
                 file,
@@ -96,13 +99,23 @@ class Baseline:
                 baseline=self.counts,
                 noise=self.noise_counts,
                 valid=self.valid,
+                source=int(self.source),
                 time_ns=self.time_ns,
                 board_id=np.uint64(self.board_id),
             )
 
     @classmethod
-    def load(cls, path: Path, rows: int, cols: int) -> Baseline:
+    def load(cls, path: Path, rows: int, cols: int, *, keeps_source: bool = False) -> Baseline:
         """Read what `save` wrote.
+
+        Parameters
+        ----------
+        path : Path
+            The file.
+        rows, cols : int
+            Size of the array.
+        keeps_source : bool
+            Whether the source is the one it had when it was saved; otherwise it is the file.
 
         Raises
         ------
@@ -131,7 +144,7 @@ class Baseline:
                 noise_counts=noise,
                 # NaN, and any number, would be true.
                 valid=content["valid"].astype(np.bool_, casting="same_kind"),
-                source=BaselineSource.FILE,
+                source=BaselineSource(int(content["source"])) if keeps_source else BaselineSource.FILE,
                 time_ns=time_ns,
                 board_id=board_id,
             )

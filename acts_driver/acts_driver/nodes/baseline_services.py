@@ -25,7 +25,7 @@ from acts_core.runtime import Pace, begin, within_patience
 from acts_core.settings import is_given
 from acts_core.skin import Layout, layout
 from acts_core.words import counted
-from acts_driver.baseline import Baseline, BaselineTracker
+from acts_driver.baseline import Baseline, BaselineTracker, KeptBaseline
 from acts_driver.settings import DriverSettings
 from acts_msgs.msg import Baseline as BaselineMessage
 from acts_ros.clocks import steady_timer
@@ -46,7 +46,8 @@ _WaitFor = Callable[[Callable[[], Baseline | None], str], Baseline | None]
 class BaselineServices:
     """Publishes the baseline of a node's skin, and lets it be determined.
 
-    The baseline in the file is taken over at the start; it is written by `calibrate`, not by `tare`.
+    The baseline in the file is taken over at the start; it is written by `calibrate`, not by `tare`. A driver in place
+    of one that has died goes on with the baseline of that one (`KeptBaseline`).
 
     Parameters
     ----------
@@ -79,8 +80,13 @@ class BaselineServices:
         self._publisher = node.create_publisher(BaselineMessage, "baseline", **published(LATCHED))
         node.create_service(Trigger, "~/calibrate", self._calibrate)
         node.create_service(Trigger, "~/tare", self._tare)
-        # Nobody is answered yet: a slow file has all the time it needs.
-        self._begin(settings, lambda load, _what: load())
+        self._kept: KeptBaseline | None = None
+        try:
+            # Nobody is answered yet: a slow file has all the time it needs.
+            self._begin(settings, lambda load, _what: load(), self._left_baseline(settings))
+        except ActsError:
+            self.leave()
+            raise
         steady_timer(node, _PERIOD_S, self._step)
 
     def begin(self, settings: DriverSettings) -> None:
@@ -97,7 +103,29 @@ class BaselineServices:
         """Take over how the taxels lie on the skin, as soon as the layout's file is read."""
         self._layout = begin(partial(layout, settings.layout or "square", settings.rows, settings.cols))
 
-    def _begin(self, settings: DriverSettings, wait_for: _WaitFor) -> None:
+    def leave(self) -> None:
+        """Leave the baseline to the driver that takes over from this one, whose process is going to end by an error."""
+        if self._kept is not None:
+            self._kept.close()
+            self._kept = None
+
+    def close(self) -> None:
+        """Keep the baseline no longer: the driver ends in order."""
+        if self._kept is not None:
+            self._kept.forget()
+        self.leave()
+
+    def _left_baseline(self, settings: DriverSettings) -> Baseline | None:
+        """Begin to keep the baseline; that of a driver which this one is in place of."""
+        source = settings.replay if settings.is_replay else settings.port
+        try:
+            self._kept = KeptBaseline(f"{self._node.get_fully_qualified_name()} {source}")
+            return self._kept.take_over(settings.rows, settings.cols)
+        except ActsError as error:
+            self._node.get_logger().warning(str(error))
+            return None
+
+    def _begin(self, settings: DriverSettings, wait_for: _WaitFor, left: Baseline | None = None) -> None:
         file, rows, cols = settings.calibration_file, settings.rows, settings.cols
         path = path_of(file, error=SettingsError) if is_given(file) else None
         tracker = BaselineTracker(rows, cols, settings.baseline_config())
@@ -105,7 +133,9 @@ class BaselineServices:
         def load() -> Baseline | None:
             return Baseline.load(path, rows, cols) if path is not None and is_there(path, error=SettingsError) else None
 
-        baseline = None if path is None else wait_for(load, f"reading calibration_file = {path}")
+        baseline = left
+        if baseline is None and path is not None:
+            baseline = wait_for(load, f"reading calibration_file = {path}")
         self._published = None
         self._path, self._tracker, self._pace = path, tracker, Pace()
         self.arrange(settings)
@@ -113,13 +143,16 @@ class BaselineServices:
         if baseline is not None:
             tracker.set(baseline)
             self._publish(baseline)
-            self._node.get_logger().info(f"baseline of {counted(int(baseline.valid.sum()), 'taxel')} from {path}")
+            origin = path if left is None else f"the driver that has died ({left.source.name.lower()})"
+            self._node.get_logger().info(f"baseline of {counted(int(baseline.valid.sum()), 'taxel')} from {origin}")
         elif path is not None:
             service = self._node.resolve_service_name("~/calibrate")
             self._node.get_logger().info(f"no baseline yet: {path} is not there, the service {service} writes it")
         if baseline is None:
             # Whoever subtracts a former one, be it of a driver that has ended, would go on.
             self._publisher.publish(baseline_message(Baseline.none(rows, cols), self._frame_id))
+            if self._kept is not None:
+                self._kept.forget()
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
         """Update the baseline by frames with their stamps [ns], on the reader's thread."""
@@ -219,6 +252,8 @@ class BaselineServices:
         return response
 
     def _step(self) -> None:
+        if self._kept is not None:
+            self._kept.refresh()
         if self._layout is not None and self._layout.done():
             self._take_over(self._layout)
             self._layout = None
@@ -241,6 +276,17 @@ class BaselineServices:
     def _publish(self, baseline: Baseline) -> None:
         self._publisher.publish(baseline_message(baseline, self._frame_id))
         self._published = baseline
+        self._keep(replace(baseline, board_id=self._baseline_board_id))
+
+    def _keep(self, baseline: Baseline) -> None:
+        if self._kept is None:
+            return
+        try:
+            self._kept.keep(baseline)
+        except ActsError as error:
+            self._node.get_logger().warning(str(error))
+            # An older one would be wrong.
+            self.close()
 
 
 def baseline_message(baseline: Baseline, frame_id: str) -> BaselineMessage:

@@ -174,12 +174,18 @@ class DriverNode(LifecycleNode):
             # That topic is kept for late joiners, and what it said of the board is not known any more.
             self._board.publish(BoardStatus(problem="the driver does not read a board now"))
 
+    def failed(self) -> None:
+        """Leave the baseline to the driver that takes over: an error ends the process."""
+        self._baseline.leave()
+
     def destroy_node(self) -> None:
         """Take the node out of the graph at once."""
+        # A start that a signal has broken off may not have come to these.
+        baseline, machine = getattr(self, "_baseline", None), getattr(self, "_state_machine", None)
+        if baseline is not None:
+            baseline.close()
         super().destroy_node()
         # rclpy leaves this to the garbage collector, and until then the graph holds a node that answers nothing.
-        machine = getattr(self, "_state_machine", None)
-        # A start that a signal has broken off may not have come to it.
         if machine is not None:
             machine.destroy_when_not_in_use()
 
