@@ -77,7 +77,10 @@ def not_opened(path: str, number: int | None, reason: str, *, what: str, present
     """
     shown = path_shown(path)
     if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.EIO):
-        return f"port {shown} is not there; plug the {what} in or name another port. {present}"
+        advice = f"port {shown} is not there; plug the {what} in or name another port. {present}"
+        if path.startswith("/dev/") and not path.startswith("/dev/shm/"):
+            return advice
+        return f"{advice} A simulated {what} makes its port when it is ready, on its first start after up to a minute."
     if number in (errno.EBUSY, errno.EAGAIN):
         held_by = holders(path)
         who = f"by {', '.join(held_by)}" if held_by else f"by another program (`lsof {path}` tells which)"

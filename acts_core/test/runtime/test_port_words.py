@@ -84,3 +84,15 @@ def test_a_port_is_held_by_a_program_whose_name_was_cut_off_within_a_letter(tmp_
         told = not_opened(str(port), errno.EBUSY, "", what="board", present="")
         process.communicate()
     assert told == f"port {port} is held by fourteen_bytes\ufffd (process {process.pid}); stop that program first"
+
+
+@pytest.mark.parametrize(
+    ("port", "may_be_simulated"),
+    [("/dev/ttyACM0", False), ("/dev/serial/by-id/usb-1", False), ("/dev/shm/acts-ann/hand", True), ("run/hand", True)],
+)
+def test_a_port_that_a_simulated_hand_may_make_yet_is_told_as_such(port: str, may_be_simulated: bool) -> None:
+    told = not_opened(port, errno.ENOENT, "", what="hand", present="Ports present: none.")
+    assert told.startswith(f"port {port} is not there; plug the hand in or name another port. Ports present: none.")
+    assert told.endswith(
+        " A simulated hand makes its port when it is ready, on its first start after up to a minute."
+    ) == (may_be_simulated)
