@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The demo as a user runs it, shortened. ROS_DOMAIN_ID 70 and 71."""
+"""The demo as a user runs it, shortened. ROS_DOMAIN_IDs 3, 70 and 71."""
 
 import json
 import os
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import psutil
 import pytest
+from waiting import wait_for
 
 pytestmark = pytest.mark.slow
 
@@ -43,6 +44,41 @@ def test_the_demo_leaves_figures_and_a_picture(tmp_path: Path) -> None:
     assert {"tactile", "virtual_board", "ur_controller"} <= set(results["cpu_percent"]), said
     assert (tmp_path / "ball_balancing.png").read_bytes().startswith(b"\x89PNG")
     assert "contacts received by the control node" in finished.stdout
+
+
+def robot_of(demo: int) -> psutil.Process | None:
+    """The process of the demo's simulated robot, once it is there."""
+    for process in psutil.Process(demo).children(recursive=True):
+        if any(Path(word).name == "ur_controller" for word in process.cmdline()):
+            return process
+    return None
+
+
+@pytest.mark.usefixtures("ur_rtde")
+def test_a_robot_that_is_stopped_while_all_is_started_is_started_again(tmp_path: Path) -> None:
+    options = ["--seconds", "8", "--out", str(tmp_path), "--robot-ip", "127.0.6.14"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "acts_tools", "demo", "ball_balancing", *options],
+        env={**os.environ, "ROS_DOMAIN_ID": "3"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    ) as process:
+        log = tmp_path / "ball_balancing.log"
+
+        def told(words: str) -> bool:
+            return log.exists() and words in log.read_text()
+
+        wait_for(lambda: told("homing: moving to the level pose"), timeout_s=60.0)
+        robot = robot_of(process.pid)
+        assert robot is not None
+        robot.suspend()
+        wait_for(lambda: told("stopped: no data from the robot"), timeout_s=60.0)
+        robot.resume()
+        said, _ = process.communicate(timeout=240)
+    assert "stopped before the ball was balanced: no data from the robot for 0.2" in said
+    assert process.returncode in (0, 1), said
+    assert json.loads((tmp_path / "ball_balancing.json").read_text())["rms_mm"]["hold"] is not None
 
 
 def test_an_impossible_length_is_refused(tmp_path: Path) -> None:

@@ -10,10 +10,12 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from numpy.typing import NDArray
 from sensor_msgs.msg import Image
+from std_srvs.srv import Trigger
 
 from acts_msgs.msg import BalanceStatus, BallReference, StreamStatistics
 from acts_ros import qos
 from acts_ros.messages import seconds_of
+from acts_ros.middleware import NotAskedError, ask
 from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
 from acts_tools.driver.status import driver_values
@@ -46,6 +48,7 @@ class Collector(PollingNode):
         self._first: StreamStatistics | None = None
         self._frames_lost_before: int | None = None
         self._crc_errors_before = 0
+        self._start = self.create_client(Trigger, "ball_control/start")
         self._inputs = [
             (self.create_polled_subscription(kind, topic, profile, depth=_DEPTH), handle)
             for kind, topic, profile, handle in (
@@ -57,6 +60,16 @@ class Collector(PollingNode):
                 (Image, "image_raw", qos.STREAM, self._on_image),
             )
         ]
+
+    def ask_to_start(self) -> bool:
+        """Ask a controller that has stopped to begin anew; whether it was asked. Its state tells whether it does."""
+        if not self._start.service_is_ready():
+            return False
+        try:
+            ask(self._start, Trigger.Request())
+        except NotAskedError:
+            return False
+        return True
 
     def take_in(self) -> None:
         """Process the messages since the last call, which must be at most a second ago."""

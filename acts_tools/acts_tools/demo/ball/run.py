@@ -32,6 +32,9 @@ from acts_tools.running.watcher import Watcher
 
 NAMESPACE = "/plate"
 _RTDE_PORT = 30004
+# A machine that is busy with the start-up of all processes may stand still for longer than a robot may be silent.
+_STARTS = 3
+_ANSWER_S = 10.0
 
 _STATE_NAMES = {
     BalanceStatus.STATE_CONNECTING: "connecting",
@@ -111,14 +114,13 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
     Raises
     ------
     LaunchError
-        When the launch ended, or the control loop was not closed in time.
+        When the launch ended, or the control loop was not closed in time or after some starts.
     """
     with launched("ball_balancing.launch.xml", arguments, log_path) as launch, ros():
         collector = Collector(NAMESPACE, recording)
         watcher = Watcher(collector.take_in, launch, stop, lambda: _line(collector, duration_s))
         try:
-            if not watcher.until(lambda: collector.state == BalanceStatus.STATE_BALANCING, START_TIMEOUT_S):
-                raise LaunchError(f"the control loop was not closed within {START_TIMEOUT_S:.0f} s")
+            _close_loop(watcher, collector)
             meter = LoadMeter(launch.pid)
             meter.start()
             watcher.until(lambda: recording.finished or bool(recording.stop_reason), duration_s + 10.0)
@@ -126,6 +128,21 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
             watcher.end()
         finally:
             collector.destroy_node()
+
+
+def _close_loop(watcher: Watcher, collector: Collector) -> None:
+    """Wait until the ball is balanced; a controller that stops before is started again, as a user would."""
+    ends = (BalanceStatus.STATE_BALANCING, BalanceStatus.STATE_STOPPED)
+    for _ in range(_STARTS):
+        if not watcher.until(lambda: collector.state in ends, START_TIMEOUT_S):
+            raise LaunchError(f"the control loop was not closed within {START_TIMEOUT_S:.0f} s")
+        if collector.state == BalanceStatus.STATE_BALANCING:
+            return
+        watcher.end()
+        print(f"stopped before the ball was balanced: {collector.reason}; starting again", flush=True)
+        watcher.until(collector.ask_to_start, _ANSWER_S)
+        watcher.until(lambda: collector.state != BalanceStatus.STATE_STOPPED, _ANSWER_S)
+    raise LaunchError(f"the controller stopped {_STARTS} times before the ball was balanced: {collector.reason}")
 
 
 def run(seconds: float | None, out: Path, robot_ip: str, realtime_priority: int = 0) -> int:
