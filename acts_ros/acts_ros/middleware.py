@@ -141,10 +141,19 @@ def telling_wrong_arguments(words: Sequence[str]) -> Iterator[None]:
         ) from None
     except rclpy_implementation.RCLError as error:
         reason = reason_of(error)
-        advice = next((advice for part, advice in _ADVICE.items() if part in reason), None)
-        if advice is None:
+        advice = _advice_on(reason)
+        if not advice:
             raise
         raise SettingsError(f"ROS: {reason}; {advice}") from None
+
+
+def _advice_on(reason: str) -> str:
+    """What to do where ROS refuses to begin for this reason; nothing where that is not known."""
+    enabled, strategy, keys = (os.environ.get(f"ROS_SECURITY_{name}") for name in ("ENABLE", "STRATEGY", "KEYSTORE"))
+    if (enabled, strategy) == ("true", "Enforce") and not keys:
+        # ROS itself has no words for that.
+        return "set ROS_SECURITY_KEYSTORE, which ROS_SECURITY_STRATEGY=Enforce needs, or unset ROS_SECURITY_ENABLE"
+    return next((advice for part, advice in _ADVICE.items() if part in reason), "")
 
 
 def choose_transports(environment: MutableMapping[str, str], rmw: str, folder: Path) -> str | None:

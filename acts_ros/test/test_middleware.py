@@ -210,8 +210,9 @@ def test_a_domain_that_there_is_is_taken(variables: dict[str, str]) -> None:
     check_domain(variables)
 
 
-def test_keys_that_are_asked_for_and_not_there_are_told_with_what_to_do(tmp_path: Path) -> None:
-    asked = {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Enforce", "ROS_SECURITY_KEYSTORE": str(tmp_path)}
+def refusal_with_keys(folder: str) -> str:
+    """What ROS is refused with where there must be keys, of this folder."""
+    asked = {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Enforce", "ROS_SECURITY_KEYSTORE": folder}
     result = subprocess.run(
         [sys.executable, "-c", "from acts_ros import middleware; middleware.init()"],
         env={**os.environ, "ROS_DOMAIN_ID": "201", **asked},
@@ -220,9 +221,19 @@ def test_keys_that_are_asked_for_and_not_there_are_told_with_what_to_do(tmp_path
         timeout=60.0,
         check=False,
     )
-    told = result.stderr.strip().splitlines()[-1]
+    return result.stderr.strip().splitlines()[-1]
+
+
+def test_keys_that_are_asked_for_and_not_there_are_told_with_what_to_do(tmp_path: Path) -> None:
+    told = refusal_with_keys(str(tmp_path))
     assert told.startswith("acts_core.errors.SettingsError: ROS: failed to initialize rcl: SECURITY ERROR: ")
     assert told.endswith("; make the keys of this enclave with `ros2 security`, or unset ROS_SECURITY_ENABLE")
+
+
+def test_a_folder_of_keys_that_is_not_given_is_told_with_what_to_do() -> None:
+    told = refusal_with_keys("")
+    assert told.startswith("acts_core.errors.SettingsError: ROS: failed to initialize rcl: ")
+    assert "; set ROS_SECURITY_KEYSTORE, which ROS_SECURITY_STRATEGY=Enforce needs, or unset" in told
 
 
 def test_ros_starts_in_a_folder_that_was_removed(tmp_path: Path) -> None:
