@@ -56,15 +56,22 @@ class KeptBaseline:
         self._claim = FileClaim(self._path, _HINT)
         _remove_forgotten(folder)
 
-    def take_over(self, rows: int, cols: int) -> Baseline | None:
+    def take_over(self, rows: int, cols: int, file: Path | None = None) -> Baseline | None:
         """What a driver of this name that has died left; None where there is nothing, or it is too old.
+
+        Parameters
+        ----------
+        rows, cols : int
+            Size of the array.
+        file : Path or None
+            That of a calibration, which goes before where it is newer: somebody has replaced it since.
 
         Raises
         ------
         SettingsError
             The file is damaged, or of another array.
         """
-        if not _is_young(self._path):
+        if time.time() - _written_s(self._path) > LONGEST_GAP_S or _written_s(file) > _written_s(self._path):
             self.forget()
             return None
         return Baseline.load(self._path, rows, cols, keeps_source=True)
@@ -105,18 +112,19 @@ def _parent() -> str:
         raise ActsError(f"/proc does not tell which process has started this one; {_HINT}") from error
 
 
-def _is_young(path: Path) -> bool:
+def _written_s(path: Path | None) -> float:
+    """When a file was written last, by the system's clock [s]; that of one that is not there is long ago."""
     try:
-        return time.time() - path.stat().st_mtime <= LONGEST_GAP_S
-    except OSError:
-        return False
+        return 0.0 if path is None else path.stat().st_mtime
+    except (OSError, ValueError):
+        return 0.0
 
 
 def _remove_forgotten(folder: Path) -> None:
     """Remove what drivers left that died with their launch."""
     for lock in folder.glob("*.npz.lock"):
         path = lock.with_suffix("")
-        if _is_young(path):
+        if time.time() - _written_s(path) <= LONGEST_GAP_S:
             continue
         # That of a driver that runs is not to be had, as this one's own.
         with suppress(ActsError), closing(FileClaim(path, _HINT, wait_s=0.0)):

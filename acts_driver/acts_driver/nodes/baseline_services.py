@@ -118,16 +118,16 @@ class BaselineServices:
     def _left_baseline(self, settings: DriverSettings) -> Baseline | None:
         """Begin to keep the baseline; that of a driver which this one is in place of."""
         source = settings.replay if settings.is_replay else settings.port
+        name, path = self._node.get_fully_qualified_name(), _calibration_path(settings)
         try:
-            self._kept = KeptBaseline(f"{self._node.get_fully_qualified_name()} {source}")
-            return self._kept.take_over(settings.rows, settings.cols)
+            self._kept = KeptBaseline(f"{name} {source} {path}")
+            return self._kept.take_over(settings.rows, settings.cols, path)
         except ActsError as error:
             self._node.get_logger().warning(str(error))
             return None
 
     def _begin(self, settings: DriverSettings, wait_for: _WaitFor, left: Baseline | None = None) -> None:
-        file, rows, cols = settings.calibration_file, settings.rows, settings.cols
-        path = path_of(file, error=SettingsError) if is_given(file) else None
+        path, rows, cols = _calibration_path(settings), settings.rows, settings.cols
         tracker = BaselineTracker(rows, cols, settings.baseline_config())
 
         def load() -> Baseline | None:
@@ -287,6 +287,11 @@ class BaselineServices:
             self._node.get_logger().warning(str(error))
             # An older one would be wrong.
             self.close()
+
+
+def _calibration_path(settings: DriverSettings) -> Path | None:
+    file = settings.calibration_file
+    return path_of(file, error=SettingsError) if is_given(file) else None
 
 
 def baseline_message(baseline: Baseline, frame_id: str) -> BaselineMessage:

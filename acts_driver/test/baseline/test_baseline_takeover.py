@@ -87,6 +87,13 @@ def test_what_the_parameters_have_taken_away_is_left_to_nobody(rig: Rig, stream:
     close_port(rig)
     assert rig.set_parameters(calibration_file="") == (True, "")
     end(rig, by_an_error=True)
+    baselines = start(rig, stream, tmp_path / "skin.npz")
+    assert await_baseline(rig, baselines).source == Baseline.SOURCE_FILE
+
+
+def test_a_driver_with_another_file_does_not_go_on_with_the_tare(rig: Rig, stream: Stream, tmp_path: Path) -> None:
+    start_tared(rig, stream, tmp_path / "skin.npz")
+    end(rig, by_an_error=True)
     baselines = start(rig, stream, tmp_path / "none.npz")
     rig.spin_until(lambda: bool(baselines), "that there is none")
     assert baselines[-1].source == Baseline.SOURCE_NONE

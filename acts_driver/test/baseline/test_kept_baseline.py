@@ -114,6 +114,19 @@ def test_what_was_left_long_ago_is_not_taken_over_and_removed(tmp_path: Path) ->
     assert not list(tmp_path.glob("*.npz"))
 
 
+def test_a_calibration_that_was_written_since_goes_before(tmp_path: Path) -> None:
+    file = tmp_path / "skin.npz"
+    with closing(KeptBaseline(NAME, tmp_path / "kept")) as kept:
+        kept.keep(Baseline.none(ROWS, COLS))
+        assert kept.take_over(ROWS, COLS, file) is not None
+        Baseline.none(ROWS, COLS).save(file)
+        set_back(tmp_path, 10)
+        assert kept.take_over(ROWS, COLS, file) is not None
+        later_s = time.time() + 10
+        os.utime(file, (later_s, later_s))
+        assert kept.take_over(ROWS, COLS, file) is None
+
+
 def test_a_driver_that_runs_for_long_is_none_of_long_ago(tmp_path: Path) -> None:
     with closing(KeptBaseline(NAME, tmp_path)) as kept:
         kept.keep(Baseline.none(ROWS, COLS))
