@@ -14,7 +14,7 @@ from acts_core.runtime import LogCallback, RateLimit
 from acts_core.wire import BoardMessage
 from acts_driver.board import BoardLink, BoardResult, BoardResults, BoardSession, BoardStatus
 from acts_driver.nodes.report import DriverReport
-from acts_driver.port import Reader, Source, StaleFrames
+from acts_driver.port import HeldBack, Reader, Source, StaleFrames
 from acts_driver.settings import DriverSettings
 from acts_driver.stream import BacklogWatch, FrameStream
 from acts_ros.diagnostics import Report
@@ -71,6 +71,7 @@ class Intake:
         self._link = BoardLink(source.write, catch_up=lambda timeout_s: self.reader.catch_up(timeout_s))
         decoder = settings.make_decoder(self._receive)
         self._stale_frames = StaleFrames(decoder)
+        self._held_back = HeldBack(needed=not decoder.has_board_clock)
         self.stream = FrameStream(*size, has_board_clock=decoder.has_board_clock)
         self.session = (
             BoardSession(self._link, settings, size=size, log=log, on_change=on_board)
@@ -95,8 +96,10 @@ class Intake:
         self._wrong_sizes_due = RateLimit(_WRONG_SIZES_TOLD_HZ)
 
     def start(self) -> None:
-        """Begin to read, and wait until it is known which board this is, `VERDICT_S` at most."""
+        """Begin to read, and wait until it is known which board this is, and which frames are new, for `VERDICT_S`."""
+        self._held_back.opened()
         self.reader.start(is_open=True)
+        self._held_back.wait(lambda: self.reader.catch_up(VERDICT_S))
         if self.session is not None:
             self.session.start()
             self.session.wait_for_verdict(VERDICT_S)
@@ -151,10 +154,13 @@ class Intake:
                 session.wake()
             if not session.may_publish:
                 return
+        if self._held_back.holds(self._source.waits):
+            return
         self._consume(accepted, results)
 
     def _on_reconnect(self) -> None:
         """The port is open again; on the reader's thread, before the first frame."""
+        self._held_back.opened()
         self.stream.reconnected()
         if self.session is not None:
             self.session.reconnected()

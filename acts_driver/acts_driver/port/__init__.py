@@ -10,6 +10,16 @@ lost is opened again.
 from acts_driver.port.port_choice import AUTO, SERIAL_PREFIX, check_port
 from acts_driver.port.reader import Reader
 from acts_driver.port.source import READ_TIMEOUT_S, SerialSource, Source
-from acts_driver.port.stale_frames import StaleFrames
+from acts_driver.port.stale_frames import HeldBack, StaleFrames
 
-__all__ = ["AUTO", "READ_TIMEOUT_S", "SERIAL_PREFIX", "Reader", "SerialSource", "Source", "StaleFrames", "check_port"]
+__all__ = [
+    "AUTO",
+    "READ_TIMEOUT_S",
+    "SERIAL_PREFIX",
+    "HeldBack",
+    "Reader",
+    "SerialSource",
+    "Source",
+    "StaleFrames",
+    "check_port",
+]

@@ -5,9 +5,15 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
+
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardMessage, Reply, UnknownReply
 from acts_driver.protocols import Decoder
+
+# What waits in a board comes within milliseconds; a machine may be busy.
+_HELD_S = 0.1
 
 
 class StaleFrames:
@@ -51,3 +57,46 @@ class StaleFrames:
         self.is_over = True
         first = self._decoder.frames - len(frames)
         return frames[max((self._before_answer or 0) - first, 0) :]
+
+
+class HeldBack:
+    """Holds frames back that have no time of their own, until what waited when the port was opened has been read.
+
+    They are dated by their arrival, so those of an earlier session would be taken for present ones, and such a board
+    gives no reply that would tell them apart.
+
+    Parameters
+    ----------
+    needed : bool
+        Whether the frames have no time of their own; of others none is held back.
+    now_s : callable
+        A steady clock [s].
+    """
+
+    def __init__(self, *, needed: bool, now_s: Callable[[], float] = time.monotonic) -> None:
+        self._needed = needed
+        self._now_s = now_s
+        self._until_s: float | None = None
+
+    def opened(self) -> None:
+        """Tell that the port was opened."""
+        if self._needed:
+            self._until_s = self._now_s() + _HELD_S
+
+    def wait(self, catch_up: Callable[[], bool]) -> None:
+        """Wait until what waited has been read; `catch_up` waits for all that has arrived, and says whether it is."""
+        until_s = self._until_s
+        if until_s is not None:
+            time.sleep(_HELD_S)
+            # Unless the port was lost and opened again meanwhile.
+            if catch_up() and self._until_s == until_s:
+                self._until_s = None
+
+    def holds(self, waits: Callable[[], bool]) -> bool:
+        """Whether the frames that were just decoded may have waited; `waits` says whether more bytes do."""
+        until_s = self._until_s
+        if until_s is None:
+            return False
+        if self._now_s() >= until_s and not waits():
+            self._until_s = None
+        return True

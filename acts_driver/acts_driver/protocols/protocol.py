@@ -24,7 +24,8 @@ class Decoder(typing.Protocol):
     Attributes
     ----------
     has_board_clock : bool
-        Whether `SampleFrame.board_us` comes from a clock of the board, so that it can be mapped to the host's.
+        Whether `SampleFrame.board_us` comes from a clock of the board, so that it can be mapped to the host's. Other
+        frames are not published in the first 0.1 s after the port was opened: they may have waited in the board.
     frames, crc_errors, malformed, partial, bytes_discarded : int
         Counters, see `acts_core.wire.DelimitedDecoder`.
     last_error : str

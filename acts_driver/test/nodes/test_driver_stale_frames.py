@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import select
 import threading
+from functools import partial
 from pathlib import Path
 
 from pty_board import DEADLINE_S, PtyBoard, frame, wait_for
@@ -83,3 +84,43 @@ def test_frames_of_a_board_that_does_not_answer_are_used(tmp_path: Path) -> None
         wait_for(lambda: published, "the frame")
         intake.stop()
     assert published[0].sequence == 5
+
+
+class FullBoard(SerialSource):
+    """A port whose board sends at once, whenever it is opened, what it has kept since nobody read it."""
+
+    def __init__(self, board: PtyBoard, kept: bytes) -> None:
+        super().__init__(str(board.path))
+        self._board = board
+        self._kept = kept
+
+    def open(self) -> None:
+        super().open()
+        self._board.write(self._kept)
+
+
+def test_lines_without_a_time_that_waited_in_the_board_are_not_taken_for_present_ones(tmp_path: Path) -> None:
+    published: list[list[int]] = []
+    with PtyBoard(tmp_path) as board:
+        source = FullBoard(board, b"3,100\r\n" + b"900,0,0,0,0,0,100\r\n" * 50)
+        source.open()
+        intake = Intake(
+            DriverSettings(port=str(board.path), protocol="raster_ascii", rows=2, cols=3, reconnect_s=0.02),
+            source,
+            lambda frames, results: published.extend(one.counts.tolist() for one, _ in frames),
+            log=lambda level, message: None,
+            on_board=lambda status: None,
+        )
+        intake.start()
+        board.write(b"1,2,3,4,5,6,100\r\n")
+        wait_for(lambda: published, "the line that was printed when the port was open")
+        assert published == [[1, 2, 3, 4, 5, 6]]
+        board.unplug()
+        wait_for(lambda: not intake.reader.connected, "the loss")
+        board.plug_in()
+        wait_for(lambda: intake.reader.reconnects == 1, "the port")
+        write = partial(board.write, b"6,5,4,3,2,1,100\r\n")
+        wait_for(lambda: len(published) > 1, "lines of the port that is back", meanwhile=write)
+        intake.stop()
+    assert {tuple(counts) for counts in published[1:]} == {(6, 5, 4, 3, 2, 1)}
+    assert intake.stream.statistics.lost == 0
