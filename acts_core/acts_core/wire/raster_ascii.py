@@ -66,13 +66,14 @@ class RasterDecoder(DelimitedDecoder):
         words = line.split(b",")
         if not words[-1] and len(words) > 1:
             raise PacketError(
-                f"line of {counted(len(words) - 1, 'number')} that ends with a comma; after the {self._size} counts of "
-                f"an array of {self._rows} x {self._cols} and their commas there is the duration, without one"
+                f"line of {counted(len(words) - 1, 'number')} that ends with a comma; after the "
+                f"{counted(self._size, 'count')} of an array of {self._rows} x {self._cols} and the comma after each "
+                "there is the duration, without one"
             )
         if len(words) != self._size + 1:
             raise PacketError(
                 f"line of {counted(len(words), 'number')}; an array of {self._rows} x {self._cols} has "
-                f"{self._size} counts and a duration"
+                f"{counted(self._size, 'count')} and a duration"
             )
         if b"" in words:
             raise PacketError(f"line with an empty value, number {words.index(b'') + 1} of {len(words)}")

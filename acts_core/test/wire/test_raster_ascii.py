@@ -80,6 +80,19 @@ def test_a_bad_line_is_counted_and_leaves_a_gap(bad: bytes, words: str) -> None:
     assert words in decoder.last_error
 
 
+@pytest.mark.parametrize(
+    ("bad", "words"),
+    [
+        (b"1,2,100\r\n", "line of 3 numbers; an array of 1 x 1 has 1 count and a duration"),
+        (b"1,\r\n", "line of 1 number that ends with a comma; after the 1 count of an array of 1 x 1"),
+    ],
+)
+def test_a_bad_line_of_a_single_taxel_is_told_in_the_singular(bad: bytes, words: str) -> None:
+    decoder = opened(1, 1)
+    assert decoder.feed(bad) == []
+    assert words in decoder.last_error
+
+
 @pytest.mark.parametrize("empty", [b"\n", b"\r\n", b"\r\n\n\r\n"])
 def test_an_empty_line_is_no_frame_and_leaves_no_gap(empty: bytes) -> None:
     decoder = opened()
