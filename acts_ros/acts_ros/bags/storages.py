@@ -13,6 +13,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from rosbags.interfaces import Connection
 from rosbags.rosbag2 import Reader, storage_mcap
 from rosbags.rosbag2.errors import ReaderError
@@ -73,14 +75,25 @@ Message = tuple[Connection, int, bytes]
 # Far longer than a recorder's queues, and not too much to be kept in memory.
 _DISORDER_NS = 2_000_000_000
 
+# A clock by which a topic goes back farther was set back; messages of one topic are recorded in their order.
+_SET_BACK_NS = 1_000_000_000
+
 _ENCODINGS = ("ros2msg", "ros2idl", "omgidl", "")
 
 
 def in_order(messages: Iterable[Message]) -> Generator[Message, None, None]:
-    """Messages by their stamps, as far as they are at most `_DISORDER_NS` behind later ones."""
+    """Messages by their stamps, as far as they are at most `_DISORDER_NS` behind later ones.
+
+    One that is farther behind was recorded after the clock was set back: it comes after all before it.
+    """
     waiting: list[tuple[int, int, Connection, bytes]] = []
     newest_ns = 0
     for number, (connection, stamp_ns, data) in enumerate(messages):
+        if stamp_ns < newest_ns - _DISORDER_NS:
+            while waiting:
+                due_ns, _, due, due_data = heapq.heappop(waiting)
+                yield due, due_ns, due_data
+            newest_ns = stamp_ns
         heapq.heappush(waiting, (stamp_ns, number, connection, data))
         newest_ns = max(newest_ns, stamp_ns)
         while waiting[0][0] < newest_ns - _DISORDER_NS:
@@ -89,6 +102,20 @@ def in_order(messages: Iterable[Message]) -> Generator[Message, None, None]:
     while waiting:
         due_ns, _, due, due_data = heapq.heappop(waiting)
         yield due, due_ns, due_data
+
+
+def _goes_back(parts: Iterable[tuple[int, NDArray[np.float64]]]) -> bool:
+    """Whether a stamp lies so far behind one of the same topic before it that the recorder's clock was set back.
+
+    Of one topic, because who makes a bag of other data may write topic after topic.
+    """
+    newest_ns: dict[int, float] = {}
+    for topic, stamps_ns in parts:
+        newest_before_ns = np.maximum.accumulate(np.append(newest_ns.get(topic, 0.0), stamps_ns))
+        if (stamps_ns < newest_before_ns[:-1] - _SET_BACK_NS).any():
+            return True
+        newest_ns[topic] = newest_before_ns[-1]
+    return False
 
 
 class _Schemas(dict[int, Schema]):
@@ -108,16 +135,34 @@ class McapFileReader(McapReader):
     def __init__(self, path: Any) -> None:
         super().__init__(path)
         self.schemas = _Schemas()
+        self._was_set_back: bool | None = None
 
     def messages(
         self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
     ) -> Generator[Message, None, None]:
-        """Topic, stamp [ns] and serialised message, in the order of the stamps."""
-        if self.chunks:
+        """Topic, stamp [ns] and serialised message, in the order of the stamps, as far as no clock was set back."""
+        if self._was_set_back is None:
+            chunks = sorted(self.chunks, key=lambda one: one.chunk_start_offset)
+            self._was_set_back = _goes_back(part for one in chunks for part in self._stamps_ns(one))
+        if not self.chunks:
+            # As rosbag2's preset `fastwrite` leaves it: messages as they were taken from their queues.
+            yield from in_order(self.messages_scan(connections, start, stop))
+        elif self._was_set_back:
+            # By their stamps, messages of two times would be mixed.
+            yield from self.messages_scan(connections, start, stop)
+        else:
             yield from super().messages(connections, start, stop)
-            return
-        # As rosbag2's preset `fastwrite` leaves it: without chunks, and messages as they were taken from their queues.
-        yield from in_order(self.messages_scan(connections, start, stop))
+
+    def _stamps_ns(self, chunk: Any) -> Generator[tuple[int, NDArray[np.float64]], None, None]:
+        """The channels of a chunk, each with the stamps of its messages in the order in which they were recorded."""
+        assert self.bio is not None
+        for channel, offset in chunk.message_index_offsets.items():
+            self.bio.seek(offset + 11)  # kind and length of the record, channel
+            size = int.from_bytes(self.bio.read(4), "little")
+            if size > chunk.message_index_length:
+                raise ReaderError("an index of messages is longer than those of its chunk together")
+            stamps_ns, places = np.frombuffer(self.bio.read(size), dtype="<u8").reshape(-1, 2).T
+            yield channel, stamps_ns[np.argsort(places)].astype(np.float64)
 
 
 class SqliteFileReader(Sqlite3Reader):
@@ -129,6 +174,7 @@ class SqliteFileReader(Sqlite3Reader):
     def __init__(self, path: Any) -> None:
         super().__init__(_for_uri(path))
         self._original = Path(path)
+        self._was_set_back: bool | None = None
         self._folder: tempfile.TemporaryDirectory[str] | None = None
 
     def open(self) -> None:
@@ -159,8 +205,11 @@ class SqliteFileReader(Sqlite3Reader):
     def messages(
         self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
     ) -> Generator[Message, None, None]:
-        """Topic, stamp [ns] and serialised message, in the order of the stamps."""
-        for connection, stamp_ns, data in super().messages(connections, start, stop):
+        """Topic, stamp [ns] and serialised message, in the order of the stamps, as far as no clock was set back."""
+        if self._was_set_back is None:
+            self._was_set_back = self._goes_back()
+        read = self._as_recorded if self._was_set_back else super().messages
+        for connection, stamp_ns, data in read(connections, start, stop):
             if type(stamp_ns) is not int or type(data) is not bytes:
                 raise ReaderError(f"a message has the stamp {stamp_ns!r:.40} and is of {type(data).__name__}")
             yield connection, stamp_ns, data
@@ -188,6 +237,30 @@ class SqliteFileReader(Sqlite3Reader):
                 raise ReaderError(f"the topic {one.topic!r:.40} is not described by text")
         if type(self.metadata.start_time) is not int or type(self.metadata.end_time) is not int:
             raise ReaderError("the stamps of its messages are not whole numbers")
+
+    def _goes_back(self) -> bool:
+        """As of MCAP; one message after another, since there may be millions."""
+        assert self.dbconn is not None
+        newest_ns: dict[int, int] = {}
+        for topic, stamp_ns in self.dbconn.execute("SELECT topic_id, timestamp FROM messages ORDER BY id"):
+            if type(stamp_ns) is not int:
+                continue  # told when it is read
+            if stamp_ns < newest_ns.get(topic, 0) - _SET_BACK_NS:
+                return True
+            newest_ns[topic] = max(newest_ns.get(topic, 0), stamp_ns)
+        return False
+
+    def _as_recorded(
+        self, connections: Collection[Connection], start: int | None = None, stop: int | None = None
+    ) -> Generator[Message, None, None]:
+        """As `messages`, in the order in which they were recorded."""
+        assert self.dbconn is not None
+        own = {one.id: one for one in connections}
+        begin, end = 0 if start is None else start, 2**63 - 1 if stop is None else stop
+        query = "SELECT topic_id, timestamp, data FROM messages WHERE timestamp >= ? AND timestamp < ? ORDER BY id"
+        for topic_id, stamp_ns, data in self.dbconn.execute(query, (begin, end)):
+            if topic_id in own:
+                yield own[topic_id], stamp_ns, data
 
     def _select(self, query: str) -> list[Any]:
         assert self.dbconn is not None

@@ -21,6 +21,8 @@ from acts_ros.publishers import TolerantPublisher
 _ACKNOWLEDGE_S = 1.0
 # A pause that nobody who plays a bag takes for its end [s].
 _PAUSE_S = 10.0
+# Messages that are recorded together may be out of order by less [ns].
+_SET_BACK_NS = 1_000_000_000
 
 
 @dataclass
@@ -111,9 +113,14 @@ class Player:
         """
         started_s = time.monotonic()
         first_ns: int | None = None
+        last_ns = 0
         for topic, stamp_ns, data in self._bag.messages(list(self._publishers), self._from_ns):
             if first_ns is None:
                 first_ns = stamp_ns
+            elif stamp_ns < last_ns - _SET_BACK_NS:
+                # A clock was set while it was recorded: it goes on at once, and not all that follows.
+                first_ns += stamp_ns - last_ns
+            last_ns = stamp_ns
             # Every deadline is relative to the start, so that delays do not accumulate.
             deadline_s = started_s + (stamp_ns - first_ns) * 1e-9 / rate
             pause_s = deadline_s - time.monotonic()

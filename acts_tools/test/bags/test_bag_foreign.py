@@ -87,6 +87,15 @@ def test_messages_that_lie_in_the_file_as_they_came_are_read_by_their_stamps(tmp
     assert note is None
 
 
+def test_what_lies_in_the_file_as_it_came_is_not_kept_until_a_clock_that_was_set_back_has_caught_up(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "fastwrite_0.mcap"
+    stamps_ns = [*range(0, 30_000_000_000, 100_000_000), *range(20_000_000_000, 40_000_000_000, 100_000_000)]
+    path.write_bytes(mcap(((stamp_ns, message(stamp_ns)) for stamp_ns in stamps_ns), "", ""))
+    assert [stamp_ns for stamp_ns, _ in read(path)[0]] == stamps_ns
+
+
 def test_a_topic_whose_definition_the_recorder_did_not_find_does_not_spoil_the_others(tmp_path: Path) -> None:
     path = tmp_path / "bag_0.mcap"
     path.write_bytes(mcap([(1, message(1))], "ros2msg", "string data\n"))

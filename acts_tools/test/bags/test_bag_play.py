@@ -18,6 +18,7 @@ from bag_commands import TIMEOUT_S, acts
 from bag_of_strings import make_bag
 from rclpy.duration import Duration
 from rclpy.serialization import serialize_message
+from rosbags.rosbag2 import StoragePlugin, Writer
 from std_msgs.msg import Int32, String
 
 from acts_core.errors import RecordingError
@@ -79,6 +80,18 @@ def test_a_pause_is_told(probe: Probe, tmp_path: Path, monkeypatch: pytest.Monke
         assert Player(probe.node, bag, ["/a"], told.append).play(1.0, lambda deadline_s: True)
     (words,) = told
     assert re.match(r"paused: the next message is due in 1\d{9} s, 1599999999 s after the first; ", words)
+
+
+def test_what_follows_a_clock_that_was_set_back_is_played_at_its_pace(probe: Probe, tmp_path: Path) -> None:
+    definition, type_hash = Definitions().describe("std_msgs/msg/String")
+    with Writer(tmp_path / "bag", version=8, storage_plugin=StoragePlugin.MCAP) as writer:
+        topic = writer.add_connection("/a", "std_msgs/msg/String", msgdef=definition, rihs01=type_hash)
+        for time_ms in (100_000, 100_500, 40_000, 40_300):
+            writer.write(topic, time_ms * 1_000_000, serialize_message(String(data="a")))
+    deadlines: list[float] = []
+    with open_bag(tmp_path / "bag") as bag:
+        assert Player(probe.node, bag, ["/a"], print).play(1.0, partial(noted, deadlines))
+    assert [round(deadline - deadlines[0], 3) for deadline in deadlines] == [0.0, 0.5, 0.5, 0.8]
 
 
 def test_subscribers_that_hang_do_not_hold_up_the_end_topic_by_topic(
