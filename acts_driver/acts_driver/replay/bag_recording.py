@@ -75,6 +75,10 @@ class BagRecording:
         """One pass; see `acts_driver.replay.recordings.SeekableRecording.frames`."""
         from_ns = self._begin_ns + 1000 * from_us if from_us else None
         with self._open(self._path) as bag:
+            if self._topic not in bag.topics():
+                raise RecordingError(
+                    f"the bag '{self._path}' has no topic {self._topic} any more: it is another one now"
+                )
             for number, (_, _, data) in enumerate(bag.messages([self._topic], from_ns)):
                 try:
                     yield frame_of(message_of(data, TactileSamples))

@@ -171,8 +171,11 @@ def open_bag(path: Path) -> Iterator[Bag]:
     """
     if not is_there(path, error=RecordingError):
         raise RecordingError(f"there is no bag '{path}'; {_NEEDED}")
-    _check_files(path)
-    reader, note = _open_reader(path)
+    try:
+        _check_files(path)
+        reader, note = _open_reader(path)
+    except OSError as error:  # as of a disk that was taken out, or a folder that may not be listed
+        raise RecordingError(f"the bag '{path}' cannot be read: {error.strerror or error}") from error
     try:
         yield Bag(list(reader.connections), note, reader, path)
     finally:

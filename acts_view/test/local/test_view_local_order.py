@@ -5,19 +5,24 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import shutil
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
 from test_view_codec import decode
-from view_recorded import DEADLINE_S, Counted, Shown
+from view_recorded import DEADLINE_S, Counted, Shown, write_bag
 from waiting import wait_for
 
 from acts_core.errors import RecordingError
 from acts_core.frames import SampleFrame, Scheme
+from acts_driver.replay import ReplayOptions, open_recording
 from acts_view.local import show as show_module
 from acts_view.local.playback import Playback
 from acts_view.local.sources import LocalSource
@@ -52,6 +57,39 @@ def test_where_one_has_gone_is_told_while_what_is_there_is_still_read() -> None:
         assert playback.state.position_s == pytest.approx(1.2)
     finally:
         recording.is_allowed.set()
+        playback.stop()
+
+
+def test_a_bag_that_cannot_be_read_any_more_is_told_until_it_can(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write_bag(tmp_path / "bag", {})
+    recording = open_recording(ReplayOptions(path))
+    numbers: list[int] = []
+    playback = Playback(recording, lambda frames: numbers.extend(one.sequence for one in frames), lambda: None)
+
+    def fail(_: Path) -> Iterator[Path]:
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    playback.pause()
+    playback.start()
+    try:
+        wait_for(lambda: numbers)
+        with monkeypatch.context() as disk:
+            disk.setattr(Path, "iterdir", fail)
+            playback.seek(0.004)
+            wait_for(lambda: "cannot be read: Input/output error" in playback.state.problem)
+        shutil.rmtree(path)
+        write_bag(path, {}, skin="/palm")
+        playback.seek(0.0)
+        wait_for(lambda: "has no topic /plate/samples any more" in playback.state.problem)
+        shutil.rmtree(path)
+        write_bag(path, {})
+        numbers.clear()
+        playback.seek(0.0)
+        wait_for(lambda: numbers)
+        assert not playback.state.problem
+    finally:
         playback.stop()
 
 
