@@ -77,6 +77,10 @@ _DISORDER_NS = 2_000_000_000
 
 # A clock by which a topic goes back farther was set back; messages of one topic are recorded in their order.
 _SET_BACK_NS = 1_000_000_000
+# Some stamps tell whether it may have been, without reading all of a large file at each opening: they are no farther
+# apart, and each lies less than this behind those before it, as those of several topics do.
+_APART_NS = _SET_BACK_NS // 2
+_BEHIND_NS = _SET_BACK_NS // 10
 
 _ENCODINGS = ("ros2msg", "ros2idl", "omgidl", "")
 
@@ -142,8 +146,7 @@ class McapFileReader(McapReader):
     ) -> Generator[Message, None, None]:
         """Topic, stamp [ns] and serialised message, in the order of the stamps, as far as no clock was set back."""
         if self._was_set_back is None:
-            chunks = sorted(self.chunks, key=lambda one: one.chunk_start_offset)
-            self._was_set_back = _goes_back(part for one in chunks for part in self._stamps_ns(one))
+            self._was_set_back = bool(self.chunks) and self._goes_back()
         if not self.chunks:
             # As rosbag2's preset `fastwrite` leaves it: messages as they were taken from their queues.
             yield from in_order(self.messages_scan(connections, start, stop))
@@ -152,6 +155,17 @@ class McapFileReader(McapReader):
             yield from self.messages_scan(connections, start, stop)
         else:
             yield from super().messages(connections, start, stop)
+
+    def _goes_back(self) -> bool:
+        """Look at all messages where chunks last for long, or begin before an earlier one ends."""
+        chunks = sorted(self.chunks, key=lambda one: one.chunk_start_offset)
+        begin_ns, end_ns = np.array(
+            [(one.message_start_time, one.message_end_time) for one in chunks], dtype=np.float64
+        ).T
+        is_behind = begin_ns[1:] < np.maximum.accumulate(end_ns)[:-1] - _BEHIND_NS
+        if not is_behind.any() and (end_ns - begin_ns <= _APART_NS).all():
+            return False
+        return _goes_back(part for one in chunks for part in self._stamps_ns(one))
 
     def _stamps_ns(self, chunk: Any) -> Generator[tuple[int, NDArray[np.float64]], None, None]:
         """The channels of a chunk, each with the stamps of its messages in the order in which they were recorded."""
@@ -207,7 +221,7 @@ class SqliteFileReader(Sqlite3Reader):
     ) -> Generator[Message, None, None]:
         """Topic, stamp [ns] and serialised message, in the order of the stamps, as far as no clock was set back."""
         if self._was_set_back is None:
-            self._was_set_back = self._goes_back()
+            self._was_set_back = self._may_go_back() and self._goes_back()
         read = self._as_recorded if self._was_set_back else super().messages
         for connection, stamp_ns, data in read(connections, start, stop):
             if type(stamp_ns) is not int or type(data) is not bytes:
@@ -237,6 +251,23 @@ class SqliteFileReader(Sqlite3Reader):
                 raise ReaderError(f"the topic {one.topic!r:.40} is not described by text")
         if type(self.metadata.start_time) is not int or type(self.metadata.end_time) is not int:
             raise ReaderError("the stamps of its messages are not whole numbers")
+
+    def _may_go_back(self) -> bool:
+        """Whether one of some stamps lies behind one before it."""
+        assert self.dbconn is not None
+        ((first, last),) = self.dbconn.execute("SELECT min(id), max(id) FROM messages").fetchall()
+        if type(first) is not int or type(last) is not int:
+            return False
+        looks = (self.metadata.end_time - self.metadata.start_time) // _APART_NS + 2
+        newest_ns = 0
+        for number in range(first, last + 1, max((last - first) // looks, 1)):
+            (stamp_ns,) = self.dbconn.execute(
+                "SELECT timestamp FROM messages WHERE id >= ? ORDER BY id LIMIT 1", (number,)
+            ).fetchone()
+            if type(stamp_ns) is not int or stamp_ns < newest_ns - _BEHIND_NS:
+                return True
+            newest_ns = max(newest_ns, stamp_ns)
+        return False
 
     def _goes_back(self) -> bool:
         """As of MCAP; one message after another, since there may be millions."""

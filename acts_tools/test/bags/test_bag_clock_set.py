@@ -13,6 +13,7 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 
 from acts_ros.bags.message_types import Definitions
 from acts_ros.bags.reading import open_bag
+from acts_ros.bags.storages import McapFileReader, SqliteFileReader
 
 TYPE = "std_msgs/msg/String"
 T0_NS = 1_700_000_000_000_000_000
@@ -62,3 +63,16 @@ def test_topics_that_were_written_one_after_another_are_read_by_their_stamps(
     written = [(name, T0_NS + number * S) for name in ("/a", "/b") for number in range(100)]
     found = read(write(tmp_path / "bag", plugin, written), ["/a", "/b"])
     assert [stamp_ns for _, stamp_ns in found] == sorted(stamp_ns for _, stamp_ns in written)
+
+
+@pytest.mark.parametrize("plugin", StoragePlugin)
+def test_a_bag_whose_clock_was_not_set_is_not_read_twice(
+    plugin: StoragePlugin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> bool:
+        raise AssertionError("each message was looked at")
+
+    monkeypatch.setattr(McapFileReader, "_stamps_ns", fail)
+    monkeypatch.setattr(SqliteFileReader, "_goes_back", fail)
+    recorded = [(name, T0_NS + number * S // 100) for number in range(1000) for name in ("/a", "/b")]
+    assert read(write(tmp_path / "bag", plugin, recorded), ["/a", "/b"]) == recorded
