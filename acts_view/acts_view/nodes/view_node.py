@@ -231,9 +231,15 @@ class ViewNode(PollingNode):
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         now_s = time.monotonic()
         for status in array.status:
-            name = status.name[:_TEXT]
+            name = self._name_of(status)
             if name in self._heard or len(self._heard) < _NODES_MAX:
                 self._heard[name] = (now_s, _shown(status))
+
+    def _name_of(self, status: DiagnosticStatus) -> str:
+        """Of the node; of another view of this one's name, as of a launch file with view:=true, also its address."""
+        name, about = status.name[:_TEXT], status.hardware_id[:_TEXT]
+        is_own_name = name == self.get_fully_qualified_name().lstrip("/")
+        return f"{name} ({about})" if is_own_name and about != self._diagnostics.hardware_id else name
 
     def _statuses(self) -> list[dict[str, Any]]:
         now_s = time.monotonic()
