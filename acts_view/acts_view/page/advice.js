@@ -3,6 +3,8 @@
 
 // What to do about what a node complains of: by words in its sentence, the first that fits.
 
+const HAND = "Is the hand powered and its adapter plugged in, and may this user open its port? See docs/hand.md.";
+const ROBOT = "Is the robot on, reachable and in remote control? See docs/ball_balancing.md.";
 const ADVICE = [
   [/end all but one/i, "What is shown is a mixture of what these nodes say. A second skin needs a namespace of its own, and a recording is played without its drivers."],
   [/no board|no frames from|is closed|no such port|cannot open/i, "Is the board plugged in and powered? acts doctor tells which ports there are, and whether you may open them."],
@@ -10,12 +12,16 @@ const ADVICE = [
   [/crc|malformed|damaged/i, "Bytes are damaged on the way: try another cable or port, without a hub; see docs/faults.md."],
   [/not in force/i, "The board does not answer: its firmware may be another one (parameter protocol), or the line only goes one way."],
   [/do not fit/i, "Driver and reconstruction must have the same rows and cols; what does not fit is in the log."],
-  [/lost|overrun|\blate\b|cycles missed/i, "The machine is too busy, or the port too slow: acts doctor tells what it lacks; see docs/real_time.md."],
+  // Before what is lost of a stream: of these the machine is not to blame.
+  [/connection\b.*\blost/i, ROBOT],
+  [/lost its power/i, HAND],
+  [/stopped writing its joints/i, "The simulated robot has ended: look where it was started, and start it again."],
+  [/lost|overrun|\blate\b|cycles missed|stood still/i, "The machine is too busy, or the port too slow: acts doctor tells what it lacks; see docs/real_time.md."],
   [/no samples/i, "Does the driver of this skin run and have a board? Its own line says."],
   [/no contact messages|no touch/i, "Does the reconstruction of this skin run? Its own line says."],
   [/stopped|given up/i, "Motion has ended. Mend the reason that is told, then start it again."],
-  [/\bhand\b|motor/i, "Is the hand powered and its adapter plugged in, and may this user open its port? See docs/hand.md."],
-  [/robot|connect/i, "Is the robot on, reachable and in remote control? See docs/ball_balancing.md."],
+  [/\bhand\b|motor/i, HAND],
+  [/robot|connect/i, ROBOT],
 ];
 const STALE = "The node has ended or hangs: look where it was started, and start it again.";
 

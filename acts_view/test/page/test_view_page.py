@@ -340,6 +340,11 @@ def test_of_a_skin_that_is_waited_for_it_asks_for_its_name_and_nodes(
         ),
         ("9 frames were late", "The machine is too busy"),
         ("7 cycles missed", "The machine is too busy"),
+        ("the world stood still for 48 ms", "The machine is too busy"),
+        ("stopped: connection to the robot lost", "Is the robot on, reachable and in remote control?"),
+        ("stopped: the connection is lost: its process has ended", "Is the robot on, reachable"),
+        ("motor index_mcp_side has lost its power", "Is the hand powered"),
+        ("the robot has stopped writing its joints; the plate is at rest", "The simulated robot has ended"),
     ],
 )
 def test_what_to_do_follows_from_what_is_complained_of(
