@@ -311,52 +311,6 @@ def test_keys_go_through_a_list_and_then_on(play: Callable[..., Player], open_pa
     expect(page.locator("#window")).to_be_focused()
 
 
-def test_without_a_skin_it_tells_how_to_start_one(play: Callable[..., Player], open_page: Callable[..., Page]) -> None:
-    page = open_page(play(()), is_live=False)
-    expect(page.locator("#empty")).to_contain_text("acts launch acts_bringup tactile.launch.xml")
-
-
-def test_of_a_skin_that_is_waited_for_it_asks_for_its_name_and_nodes(
-    play: Callable[..., Player], open_page: Callable[..., Page]
-) -> None:
-    player = play(())
-    player.status = {"skins": ["/foot"]}
-    page = open_page(player, is_live=False)
-    empty = page.locator("#empty")
-    expect(empty).to_contain_text("Nothing has come from /foot yet. Is the name right")
-    # There may be other skins.
-    assert "Nobody publishes touch" not in empty.inner_text()
-
-
-@pytest.mark.parametrize(
-    ("message", "advice"),
-    [
-        # "late" is in the name of the topic only.
-        ("no contact messages on /plate/contact", "Does the reconstruction of this skin run? Its own line says."),
-        ("/plate/contact has 2 publishers (/acts_player, /plate/reconstruction): end all but one", "is a mixture"),
-        (
-            "the board measures 16 x 16 taxels, the parameters rows and cols say 32 x 32",
-            "or acts view --board its --size",
-        ),
-        ("9 frames were late", "The machine is too busy"),
-        ("7 cycles missed", "The machine is too busy"),
-        ("the world stood still for 48 ms", "The machine is too busy"),
-        ("stopped: connection to the robot lost", "Is the robot on, reachable and in remote control?"),
-        ("stopped: the connection is lost: its process has ended", "Is the robot on, reachable"),
-        ("motor index_mcp_side has lost its power", "Is the hand powered"),
-        ("the robot has stopped writing its joints; the plate is at rest", "The simulated robot has ended"),
-    ],
-)
-def test_what_to_do_follows_from_what_is_complained_of(
-    message: str, advice: str, play: Callable[..., Player], open_page: Callable[..., Page]
-) -> None:
-    player = play()
-    player.status = {"diagnostics": [{"name": "a", "level": 1, "message": message, "age_s": 0.1, "values": []}]}
-    page = open_page(player)
-    expect(page.locator("#diagnostics .message")).to_have_text(message)
-    expect(page.locator("#diagnostics .advice")).to_contain_text(advice)
-
-
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080)])
 def test_picture_and_legend_fit_the_window_and_nothing_leaves_its_card(
     play: Callable[..., Player], open_page: Callable[..., Page], width: int, height: int
