@@ -71,7 +71,9 @@ def test_a_process_whose_middleware_hangs_ends_with_a_word() -> None:
 def test_a_process_whose_profile_is_the_users_is_not_ended(tmp_path: Path) -> None:
     """It may announce itself as rarely as it likes, as with static discovery."""
     profile = tmp_path / "mine.xml"
-    profile.write_text('<dds xmlns="http://www.eprosima.com"><profiles/></dds>')
+    # Fast DDS of Jazzy complains of a file without a profile.
+    participant = '<participant profile_name="mine" is_default_profile="true"><rtps/></participant>'
+    profile.write_text(f'<dds xmlns="http://www.eprosima.com"><profiles>{participant}</profiles></dds>')
     with running(FASTDDS_DEFAULT_PROFILES_FILE=str(profile), FASTRTPS_DEFAULT_PROFILES_FILE=str(profile)) as process:
         hold_timers(process.pid)
         assert process.stdout is not None
