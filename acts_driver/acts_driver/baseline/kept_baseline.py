@@ -121,9 +121,8 @@ def _written_s(path: Path | None) -> float:
 
 
 def _remove_forgotten(folder: Path) -> None:
-    """Remove what drivers left that died with their launch."""
-    for lock in folder.glob("*.npz.lock"):
-        path = lock.with_suffix("")
+    """Remove what drivers left that died with their launch, or that an error has ended for good."""
+    for path in {*folder.glob("*.npz"), *(lock.with_suffix("") for lock in folder.glob("*.npz.lock"))}:
         if time.time() - _written_s(path) <= LONGEST_GAP_S:
             continue
         # That of a driver that runs is not to be had, as this one's own.

@@ -143,6 +143,9 @@ def test_what_drivers_left_that_died_with_their_launch_is_removed_by_another_one
         with driver(tmp_path, "/two/driver auto", 12), driver(tmp_path, "/three/driver auto"):
             pass
         (dead,) = set(tmp_path.glob("*.npz")) - of_the_living
+        # One that an error has ended, which gave up its lock.
+        with closing(KeptBaseline("/four/driver auto", tmp_path)) as failed:
+            failed.keep(Baseline.none(ROWS, COLS))
         dead.with_name(f".{dead.name}.1.2.new").write_bytes(b"half of one")
         # That of the living, too, as where it stood still for so long.
         set_back(tmp_path, LONGEST_GAP_S + 10)
