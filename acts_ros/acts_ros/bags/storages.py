@@ -75,12 +75,13 @@ Message = tuple[Connection, int, bytes]
 # Far longer than a recorder's queues, and not too much to be kept in memory.
 _DISORDER_NS = 2_000_000_000
 
-# A clock by which a topic goes back farther was set back; messages of one topic are recorded in their order.
-_SET_BACK_NS = 1_000_000_000
+SET_BACK_NS = 1_000_000_000
+"""A clock by which a topic goes back farther was set back; messages of one topic are recorded in their order."""
+
 # Some stamps tell whether it may have been, without reading all of a large file at each opening: they are no farther
 # apart, and each lies less than this behind those before it, as those of several topics do.
-_APART_NS = _SET_BACK_NS // 2
-_BEHIND_NS = _SET_BACK_NS // 10
+_APART_NS = SET_BACK_NS // 2
+_BEHIND_NS = SET_BACK_NS // 10
 
 _ENCODINGS = ("ros2msg", "ros2idl", "omgidl", "")
 
@@ -116,7 +117,7 @@ def _goes_back(parts: Iterable[tuple[int, NDArray[np.float64]]]) -> bool:
     newest_ns: dict[int, float] = {}
     for topic, stamps_ns in parts:
         newest_before_ns = np.maximum.accumulate(np.append(newest_ns.get(topic, 0.0), stamps_ns))
-        if (stamps_ns < newest_before_ns[:-1] - _SET_BACK_NS).any():
+        if (stamps_ns < newest_before_ns[:-1] - SET_BACK_NS).any():
             return True
         newest_ns[topic] = newest_before_ns[-1]
     return False
@@ -276,7 +277,7 @@ class SqliteFileReader(Sqlite3Reader):
         for topic, stamp_ns in self.dbconn.execute("SELECT topic_id, timestamp FROM messages ORDER BY id"):
             if type(stamp_ns) is not int:
                 continue  # told when it is read
-            if stamp_ns < newest_ns.get(topic, 0) - _SET_BACK_NS:
+            if stamp_ns < newest_ns.get(topic, 0) - SET_BACK_NS:
                 return True
             newest_ns[topic] = max(newest_ns.get(topic, 0), stamp_ns)
         return False

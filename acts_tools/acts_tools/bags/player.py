@@ -16,13 +16,12 @@ from rclpy.publisher import Publisher
 from acts_core.errors import RecordingError
 from acts_ros.bags import qos
 from acts_ros.bags.reading import Bag
+from acts_ros.bags.storages import SET_BACK_NS
 from acts_ros.publishers import TolerantPublisher
 
 _ACKNOWLEDGE_S = 1.0
 # A pause that nobody who plays a bag takes for its end [s].
 _PAUSE_S = 10.0
-# Messages that are recorded together may be out of order by less [ns].
-_SET_BACK_NS = 1_000_000_000
 
 
 @dataclass
@@ -117,7 +116,7 @@ class Player:
         for topic, stamp_ns, data in self._bag.messages(list(self._publishers), self._from_ns):
             if first_ns is None:
                 first_ns = stamp_ns
-            elif stamp_ns < last_ns - _SET_BACK_NS:
+            elif stamp_ns < last_ns - SET_BACK_NS:
                 # A clock was set while it was recorded: it goes on at once, and not all that follows.
                 first_ns += stamp_ns - last_ns
             last_ns = stamp_ns
