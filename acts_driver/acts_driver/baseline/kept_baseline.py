@@ -126,6 +126,6 @@ def _remove_forgotten(folder: Path) -> None:
         if time.time() - _written_s(path) <= LONGEST_GAP_S:
             continue
         # That of a driver that runs is not to be had, as this one's own.
-        with suppress(ActsError), closing(FileClaim(path, _HINT, wait_s=0.0)):
+        with suppress(ActsError, OSError), closing(FileClaim(path, _HINT, wait_s=0.0)):
             for old in (path, *folder.glob(f".{path.name}.*.new")):
                 old.unlink(missing_ok=True)
