@@ -70,12 +70,13 @@ print(time_slice_ns())
 
 @pytest.mark.usefixtures("_slices")
 def test_policy_and_nice_value_are_kept() -> None:
+    """The nice value is 5 more than that of the tests, which may run as `nice make test`."""
     assert run("""
-os.nice(5)
+nice = os.nice(5)
 os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
 set_time_slice(SHORTEST_NS)
-print(time_slice_ns(), os.sched_getscheduler(0) == os.SCHED_BATCH, os.getpriority(os.PRIO_PROCESS, 0))
-""") == [str(SHORTEST_NS), "True", "5"]
+print(time_slice_ns(), os.sched_getscheduler(0) == os.SCHED_BATCH, os.getpriority(os.PRIO_PROCESS, 0) == nice > 0)
+""") == [str(SHORTEST_NS), "True", "True"]
 
 
 def test_a_thread_that_has_ended_has_none_and_gets_none() -> None:
