@@ -16,7 +16,7 @@ from acts_core.files.frames_file import (
     recordings_of,
     without_contact,
 )
-from acts_core.files.model_file import ModelFile
+from acts_core.files.model_file import ModelFile, settings_field
 from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
 from acts_core.files.private_files import FileClaim, make_private
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
@@ -46,6 +46,7 @@ __all__ = [
     "read_yaml",
     "recordings_of",
     "require_regular",
+    "settings_field",
     "shown",
     "unpacked_bytes",
     "without_contact",

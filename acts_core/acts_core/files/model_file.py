@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,3 +63,19 @@ class ModelFile:
         if found != self.format:
             raise self.error(f"{path}: format {found!r}; readable is {self.format!r}")
         return content
+
+    def settings(self, path: Path, content: Mapping[str, NDArray]) -> dict[str, Any]:
+        """The field ``settings`` of a file's content, by `settings_field`; raises `error` when it is damaged."""
+        try:
+            settings = json.loads(str(content["settings"]))
+        except (ValueError, RecursionError) as error:
+            raise self.error(f"{path}: a field has the wrong type (settings: {error}); {self.remedy}") from error
+        if not isinstance(settings, dict):
+            found = type(settings).__name__
+            raise self.error(f"{path}: a field has the wrong type (settings: {found}, not names); {self.remedy}")
+        return settings
+
+
+def settings_field(settings: Mapping[str, Any]) -> str:
+    """Plain values by name, such as what a model was made with, as the field ``settings`` of its file."""
+    return json.dumps(dict(settings), sort_keys=True)

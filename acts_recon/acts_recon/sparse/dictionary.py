@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import DictionaryError
-from acts_core.files import ModelFile
+from acts_core.files import ModelFile, settings_field
 
 _FILE = ModelFile(
     kind="a dictionary file",
@@ -112,7 +111,7 @@ def save_dictionary(dictionary: Dictionary, path: Path) -> None:
         {
             "atoms": dictionary.atoms,
             "patch_size": dictionary.patch_size,
-            "settings": json.dumps(dict(dictionary.settings), sort_keys=True),
+            "settings": settings_field(dictionary.settings),
             "provenance": dictionary.provenance,
             "sha256": dictionary.sha256,
         },
@@ -139,7 +138,7 @@ def load_dictionary(path: Path | str, *, patch_size: int | None = None) -> Dicti
         dictionary = Dictionary(
             content["atoms"],
             int(content["patch_size"]),
-            dict(json.loads(str(content["settings"]))),
+            _FILE.settings(path, content),
             str(content["provenance"]),
         )
     except DictionaryError as error:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from acts_core.errors import RecordingError
-from acts_core.files import ModelFile
+from acts_core.files import ModelFile, settings_field
 from acts_recon.learning import KsvdState
 
 
@@ -56,7 +56,7 @@ class Checkpoint:
             {
                 "iteration": state.iteration,
                 "atoms": state.atoms,
-                "settings": json.dumps(dict(self.settings), sort_keys=True),
+                "settings": settings_field(self.settings),
             },
         )
 
@@ -78,12 +78,9 @@ class Checkpoint:
                 f"{self.path}: damaged (iteration {iteration.shape}, {iteration.dtype}, atoms {atoms.shape}, "
                 f"{atoms.dtype}: needed are a whole number, and finite ones); {self._file.remedy}"
             )
-        try:
-            found = dict(json.loads(str(content["settings"])))
-        except (TypeError, ValueError) as error:
-            raise RecordingError(f"{self.path}: damaged ({error}); {self._file.remedy}") from error
+        found = self._file.settings(self.path, content)
         # Convert to JSON and back like the settings in the file: tuples become lists.
-        here = json.loads(json.dumps(dict(self.settings)))
+        here = json.loads(settings_field(self.settings))
         others = [
             f"{name} {found.get(name)} there, {here.get(name)} here"
             for name in sorted({*found, *here})
