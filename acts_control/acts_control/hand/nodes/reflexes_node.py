@@ -229,22 +229,30 @@ class HandReflexesNode(MotorNode):
 
     def _on_grasp(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.torque_services.serve()  # what was asked for before this
-        return answered(response, self.stalls.objection() or self._why_not() or self._supervisor.grasp())
+        objection = self.stalls.objection() or self._why_not() or self._supervisor.grasp()
+        return answered(response, objection, self._begun("the hand closes until it grips something"))
 
     def _on_release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self.torque_services.serve()
-        return answered(response, self._why_not() or self._supervisor.release())
+        return answered(response, self._why_not() or self._supervisor.release(), self._begun("the hand opens"))
 
     def _on_stop(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         # Who stops a hand whose torque is about to come on does not expect that it comes on afterwards.
         self.torque_services.serve()
         if self.loop.cancel_enable():
-            return answered(response, "")
-        return answered(response, self._why_not(to_move=False) or self._supervisor.stop())
+            return answered(response, "", "the torque stays off")
+        objection = self._why_not(to_move=False) or self._supervisor.stop()
+        return answered(response, objection, self._begun("the hand stands still, its torque on"))
 
     def _why_not(self, *, to_move: bool = True) -> str:
         """Why nothing can be asked of the hand; while a motor is started anew, what is asked for is done after that."""
-        return "" if self.loop.status.phase is HandPhase.RECOVERING else self.why_still(to_move=to_move)
+        return "" if self._is_recovering() else self.why_still(to_move=to_move)
+
+    def _begun(self, what: str) -> str:
+        return f"{what}, once its motors are started anew" if self._is_recovering() else what
+
+    def _is_recovering(self) -> bool:
+        return self.loop.status.phase is HandPhase.RECOVERING
 
     def _present(self) -> SupervisorStatus:
         """What the hand is about: without torque nothing, whatever it was about when it had some."""

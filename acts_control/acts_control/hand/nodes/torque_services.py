@@ -49,8 +49,8 @@ class TorqueServices:
                 service.answer(answered(Trigger.Response(), objection), header)
 
 
-def answered(response: Trigger.Response, objection: str) -> Any:
-    """The answer of a service that says why not, or nothing."""
+def answered(response: Trigger.Response, objection: str, done: str = "") -> Any:
+    """The answer of a service: why not, or where nothing objects what is done."""
     response.success = not objection
-    response.message = objection
+    response.message = objection or done
     return response

@@ -92,7 +92,10 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         until(lambda: statuses[-1].steps > 0)
         # Touch has to be there before the hand may close.
         until(lambda: feel() and statuses[-1].touch_age < 1.0)
-        assert called("grasp").success
+        grasped = called("grasp")
+        assert grasped.success
+        # It has only begun.
+        assert grasped.message == "the hand closes until it grips something"
         until_state(HandStatus.STATE_CLOSING)
         until(lambda: feel() and statuses[-1].goals[2] > 0.4)
         held = until_state(HandStatus.STATE_HOLDING, *GRIPPED)
@@ -100,7 +103,9 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         avoiding = until_state(HandStatus.STATE_AVOIDING, TIP, *GRIPPED[1:])
         assert list(avoiding.active) == ["sharp"]
         assert dict(zip(avoiding.reflexes, avoiding.events, strict=True))["sharp"] == 1
-        assert called("release").success
+        released = called("release")
+        assert released.success
+        assert released.message == "the hand opens"
         opening = until_state(HandStatus.STATE_OPEN)
         assert len(opening.goals) == 16
         until(lambda: any(dict_of(report).get("hand") == "OPEN" for report in reports))
@@ -144,7 +149,9 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         assert called("stop").message == "the hand is released: released by request"
         # Who has enabled a hand can move it at once.
         until(lambda: called("enable").success)
-        assert called("stop").success
+        stopped = called("stop")
+        assert stopped.success
+        assert stopped.message == "the hand stands still, its torque on"
         until(lambda: statuses[-1].reason == "stopped by request")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE_S)
@@ -245,6 +252,7 @@ def test_stop_is_answered_while_enable_waits_and_the_torque_stays_off(bus: Bus) 
         enabled, stopped = enable.call_async(Trigger.Request()), stop.call_async(Trigger.Request())
         until(stopped.done)
         assert stopped.result().success, stopped.result().message
+        assert stopped.result().message == "the torque stays off"
         until(enabled.done)
         assert enabled.result().message == "the torque is off: stopped before it was on"
         bus.command("find 14")
