@@ -10,8 +10,8 @@ on a foam goes up and down, and rocks. So at each frequency f the force on taxel
 
 where g_i is the mean force on it. That is linear least squares, so it holds for samples at any time (Lomb and Scargle's
 periodogram is the case of one taxel), and all samples of a contact look for one frequency together. Tones are found
-one after the other, the strongest first, and taken off. How strong they are is then asked of each taxel by itself,
-without the plane, and summed up.
+one after the other, the strongest first, and taken off; and with each of them its overtones that are too fast to be
+told. How strong they are is then asked of each taxel by itself, without the plane, and summed up.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ _FALSE_ALARM = 1e-4
 _MEDIAN_WIDTH = 65
 # Tones that are slower than those asked for are found and taken off, too.
 _FURTHER_TONES = 6
+# So many times its frequency: what vibrates is not a sine, and neither is what taxels make of it.
+_OVERTONES = (2, 3)
 _REFINING_STEPS = 3
 _LEAST_SAMPLES = 8
 # Of the samples of the taxel that has most: those with less are told from the plane.
@@ -170,11 +172,20 @@ class Tones:
             if tone is None or (found and tone.power < _LEAST_POWER * max(one.power for one in found)):
                 break
             rest -= tone.force_n
+            self._take_off_overtones(tone, rest)
             # A board pauses between frames, so that a tone near a multiple of the frame rate has a mean of its own.
             rest -= (self._of_taxels(self._hann * rest) / self._whole)[self._slot]
             found.append(tone)
         told = [self._peak(one, rest) for one in self._apart(found) if one.frequency_hz >= lowest_hz]
         return tuple(sorted(told, key=lambda one: -one.amplitude_n))
+
+    def _take_off_overtones(self, tone: _Tone, rest: Array) -> None:
+        """Take off overtones faster than half the rate: samples at an uneven pace have them at several frequencies."""
+        for times in _OVERTONES:
+            frequency_hz = times * tone.frequency_hz
+            if frequency_hz > 0.5 / self._step_s:
+                _, state = self._explained(frequency_hz, self._sums(rest)[:, self._filled])
+                rest -= self._force_n(frequency_hz, self._modes @ state)
 
     def _apart(self, found: list[_Tone]) -> list[_Tone]:
         """Without what lies so near to a stronger tone that it may be a part of it."""
@@ -187,9 +198,9 @@ class Tones:
         from scipy.ndimage import median_filter
         from scipy.special import chdtri
 
-        values = [self._points(self._weight * mode[self._slot] * rest) for mode in self._modes.T]
+        sums = self._sums(rest)
         power = np.zeros(self._bins)
-        for one in values:
+        for one in sums:
             power += np.abs(self._spectrum(one)) ** 2
         first = max(round(1.0 / self._span_s / self.step_hz), 1)
         if power.size <= first + 2:
@@ -197,14 +208,17 @@ class Tones:
         apart = power[::_FINER]
         noise = np.repeat(median_filter(apart, size=min(_MEDIAN_WIDTH, apart.size), mode="reflect"), _FINER)
         # A power of noise is distributed as chi squared.
-        freedom = 2 * len(values)
+        freedom = 2 * len(sums)
         least = chdtri(freedom, _FALSE_ALARM / apart.size) / chdtri(freedom, 0.5) * noise[: power.size]
         at = first + int(np.argmax(np.where(power > least, power, 0.0)[first:]))
-        return self._tone(at * self.step_hz, values, rest) if power[at] > least[at] else None
+        return self._tone(at * self.step_hz, sums[:, self._filled], rest) if power[at] > least[at] else None
 
-    def _tone(self, frequency_hz: float, values: list[Array], rest: Array) -> _Tone:
+    def _sums(self, rest: Array) -> Array:
+        """How much of each mode is in what is left, by point of the grid; shape (modes, points)."""
+        return np.array([self._points(self._weight * mode[self._slot] * rest) for mode in self._modes.T])
+
+    def _tone(self, frequency_hz: float, sums: Array, rest: Array) -> _Tone:
         """The tone near a frequency that explains most, by least squares on the grid's points."""
-        sums = np.array(values)[:, self._filled]
         near_hz = self.step_hz / 2
         for _ in range(_REFINING_STEPS):
             before, here, after = (
@@ -217,14 +231,18 @@ class Tones:
             near_hz /= 2
         power, state = self._explained(frequency_hz, sums)
         of_taxel: Complex = self._modes @ state
-        wave = np.exp(2j * np.pi * frequency_hz * self._since)
-        force_n: Array = np.real(of_taxel[self._slot] * wave)
+        force_n = self._force_n(frequency_hz, of_taxel)
         left = rest - force_n
         noise = float(self._weight @ left**2) / float(self._hann.sum())
         # What its force changes by with the frequency. Readings of a small weight count less, and so does their noise.
         square = self._weight * np.abs(of_taxel[self._slot]) ** 2 * (2 * np.pi * self._since) ** 2 / 2
         sd_hz = math.sqrt(noise * float(square @ self._hann)) / max(float(square.sum()), 1e-300)
         return _Tone(frequency_hz, sd_hz, of_taxel, force_n, power)
+
+    def _force_n(self, frequency_hz: float, of_taxel: Complex) -> Array:
+        """What each sample has of a tone."""
+        force_n: Array = np.real(of_taxel[self._slot] * np.exp(2j * np.pi * frequency_hz * self._since))
+        return force_n
 
     def _explained(self, frequency_hz: float, sums: Array) -> tuple[float, Complex]:
         """How much a tone of this frequency explains, and its complex amplitude in each mode."""

@@ -32,14 +32,17 @@ def hear(
     noise: float = 2.0,
     seed: int = 1,
     lost: float = 0.2,
+    in_turn: int = 0,
     first_s: float = 1.7e9,
     frames: int = 880,
     taxels: list[int] = CONTACT,
 ) -> None:
-    """Frames in which taxels are measured in random order, and some not at all."""
+    """Frames in which taxels are measured in random order, and some not at all; or so many in turn in each."""
     rng = np.random.default_rng(seed)
     for number in range(frames):
         order = rng.permutation(16)[: 16 - rng.binomial(15, lost)]
+        if in_turn:
+            order = np.arange(number * in_turn, (number + 1) * in_turn) % 16
         sample_s = FRAME_S / order.size
         # The last sample ends with the frame.
         end_s = number * FRAME_S + FRAME_S
@@ -121,6 +124,15 @@ def test_several_tones_are_told_the_largest_first_and_nothing_else() -> None:
     assert spectrum.force_n == pytest.approx(3.0, rel=0.02)
     assert spectrum.x_m == pytest.approx(float(GEOMETRY.x_m(9.5)), abs=2e-4)
     assert spectrum.y_m == pytest.approx(float(GEOMETRY.y_m(11.5)), abs=2e-4)
+
+
+@pytest.mark.parametrize("in_turn", [9, 13, 16])
+@pytest.mark.parametrize("hz", [225.0, 300.0, 390.0])
+def test_overtones_faster_than_half_the_rate_are_not_told_as_other_tones(hz: float, in_turn: int) -> None:
+    """A contact with more taxels than a frame has them at several frequencies, which were taken for other tones."""
+    (peak,) = heard({hz: 0.6, 2 * hz: 0.15, 3 * hz: 0.08}, in_turn=in_turn).peaks
+    assert peak.frequency_hz == pytest.approx(hz, abs=0.05)
+    assert peak.amplitude_n == pytest.approx(0.6, rel=0.05)
 
 
 def test_a_contact_that_does_not_vibrate_has_no_peaks_and_an_untouched_skin_no_spectrum() -> None:
