@@ -13,6 +13,7 @@ answered whenever that is.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from copy import copy
@@ -54,6 +55,21 @@ class PolledSubscription(Generic[M]):
         """
         # Not every middleware records the time of reception.
         return [(message, info["received_timestamp"] or time.time_ns()) for message, info in self._take()]
+
+    def take_newest(self) -> tuple[M, float] | None:
+        """The newest message that has arrived since the last call, if any; from any thread, one at a time.
+
+        Returns
+        -------
+        (message, float) or None
+            How long it has waited since the middleware received it [s]; NaN where that is unknown.
+        """
+        found = list(self._take())
+        if not found:
+            return None
+        message, info = found[-1]
+        received_ns = info["received_timestamp"]
+        return message, (time.time_ns() - received_ns) * 1e-9 if received_ns else math.nan
 
     def take_all_sent(self) -> list[tuple[M, int]]:
         """As `take_all`, each with the time at which it was sent by the system's clock [ns]; 0 where it is unknown."""

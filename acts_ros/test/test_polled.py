@@ -3,6 +3,7 @@
 
 """Subscriptions and services that are read when their reader is due; ROS_DOMAIN_ID 134."""
 
+import math
 import time
 from collections.abc import Callable, Iterator
 
@@ -71,6 +72,24 @@ def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:
     taken = pair.take_until(99)
     assert taken[-8:] == list(range(92, 100))
     assert taken == sorted(taken)
+
+
+def test_the_newest_message_tells_how_long_it_has_waited(pair: Pair) -> None:
+    assert pair.polled.take_newest() is None
+    begun_s = time.time()
+    pair.send(1, 2)
+    pair.until(lambda: 2 in pair.called)
+    taken: list[tuple[Int32, float]] = []
+
+    def is_there() -> bool:
+        taken.extend(filter(None, [pair.polled.take_newest()]))
+        return bool(taken) and taken[-1][0].data == 2
+
+    pair.until(is_there)
+    # Unless the middleware does not tell.
+    if not math.isnan(waited_s := taken[-1][1]):
+        assert 0.0 < waited_s < time.time() - begun_s
+    assert pair.polled.take_newest() is None
 
 
 def test_a_service_is_answered_when_the_answer_is_known(pair: Pair) -> None:

@@ -120,6 +120,8 @@ class SkinTopics:
         # Of each topic of `_TOPICS`, what was said last, and when by the monotonic clock [s].
         self._told: dict[str, tuple[float, dict[str, Any]]] = {}
         self._is_teller_gone = False
+        # How long what was taken last had waited [s], by topic.
+        self._waited_s: dict[str, float] = {}
         self._contact = ContactTopic(node, namespace)
         self._polled["regions"] = node.create_raw_polled_subscription(
             RegionContacts, f"{namespace}/regions", qos.STREAM, depth=1
@@ -164,8 +166,14 @@ class SkinTopics:
             return None
         return replace(frame, hand=_NOTHING.hand, ball=_NOTHING.ball, object=_NOTHING.object)
 
+    @property
+    def image_waited_s(self) -> float:
+        """How long the image that the last call of `take` found had waited [s]; NaN where there was none."""
+        return self._waited_s.get("image_raw", math.nan)
+
     def take(self) -> tuple[Frame, list[Sample]] | None:
         """The newest of everything and all of the 1 kHz stream since the last call; None where nothing came or went."""
+        self._waited_s.clear()
         samples, touch, stamp_s = self._contact.take()
         images = {name: self._newest_read(name, read_image) for name in ("image_raw", "confidence", "age")}
         contacts, regions = self._newest_read("contacts", read_contacts), self._newest_read("regions", read_regions)
@@ -260,8 +268,11 @@ class SkinTopics:
         """The newest message of a topic; None where none has come, or, at the last look, nobody published it."""
         if what in self._silent:
             return None
-        taken = self._polled[what].take_all()
-        return taken[-1][0] if taken else None
+        taken = self._polled[what].take_newest()
+        if taken is None:
+            return None
+        message, self._waited_s[what] = taken
+        return message
 
     def _newest_read(self, what: str, read: Callable[[bytes], R]) -> R | None:
         """The same of a topic whose messages stay bytes until here; None also for what is no such message."""

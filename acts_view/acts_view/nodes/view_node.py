@@ -34,6 +34,7 @@ from acts_view.nodes.skin_topics import SkinTopics
 from acts_view.recording.recording import Feed, Recording
 from acts_view.settings import ViewSettings
 from acts_view.skin.snapshot import SkinShape
+from acts_view.web.pace import Pace
 from acts_view.web.server import ViewServer
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ class ViewNode(PollingNode):
         self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, _DIAGNOSTICS_DEPTH)
         self._diagnostics = DiagnosticsReporter(self, self.address.url.partition("?")[0], self._report)
         # Not by a timer of the node: it costs more than what it would call.
+        self._pace = Pace(1.0 / settings.rate_hz)
         self._server.every(1.0 / settings.rate_hz, self._show)
         steady_timer(self, _STEP_PERIOD_S, self._step)
         if self._control is not None:
@@ -135,8 +137,8 @@ class ViewNode(PollingNode):
         """From the server's thread."""
         self._pages = pages
 
-    def _show(self) -> None:
-        """Show what is new; on the server's thread."""
+    def _show(self) -> float:
+        """Show what is new; on the server's thread. How much later than a period from now to look again [s]."""
         with self._lock:
             for name, topics in self._skins.items():
                 try:
@@ -149,6 +151,7 @@ class ViewNode(PollingNode):
                         throttle_duration_sec=_TOLD_EVERY_S,
                         throttle_time_source_type=STEADY,
                     )
+            return self._pace.later_s(topics.image_waited_s for topics in self._skins.values())
 
     def _step(self) -> None:
         """Often: begin and end with the pages."""

@@ -176,7 +176,7 @@ class ViewServer:
         """As `Display.show_status`, from any thread."""
         self._show(self._display.show_status, {"version": self._version, **status})
 
-    def every(self, period_s: float, call: Callable[[], None]) -> None:
+    def every(self, period_s: float, call: Callable[[], float | None]) -> None:
         """Call something on the server's thread again and again, from now until the end; an error in it is logged.
 
         Parameters
@@ -184,13 +184,17 @@ class ViewServer:
         period_s : float
             From one call to the next [s]; calls that are late are not made up for.
         call : callable
-            Must not take long. What it shows reaches the clients without waking another thread.
+            Must not take long. What it shows reaches the clients without waking another thread. It may return by how
+            much later the next call is due [s].
         """
 
         def again(due_s: float) -> None:
-            next_s = max(due_s + period_s, self._loop.time())
-            self._loop.call_at(next_s, again, next_s)
-            call()
+            next_s = due_s + period_s
+            try:
+                next_s += call() or 0.0
+            finally:
+                next_s = max(next_s, self._loop.time())
+                self._loop.call_at(next_s, again, next_s)
 
         self._loop.call_soon_threadsafe(again, self._loop.time())
 
