@@ -3,7 +3,8 @@
 
 """The node `ball_world`: the simulated plate with its ball, from the robot's joints to the board's taxels.
 
-Publishes the ball's true position on ``ball/truth``, for evaluation only: no controller subscribes to it.
+Publishes the ball's true position on ``ball/truth``, for evaluation only: no controller subscribes to it. The service
+``~/put_back`` puts a ball that fell off on the plate again.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from typing import Any
 
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 from acts_core.errors import ActsError, SettingsError
 from acts_core.runtime import RealtimeConfig, enter_realtime
@@ -110,6 +112,7 @@ class BallWorld(Node):
         self._loop = WorldLoop(self._world, self._joints, ring, self._publish, on_running=self._enter_realtime)
         self._undo.callback(self._loop.stop)
         self._loop.start()
+        self.create_service(Trigger, "~/put_back", self._on_put_back)
         self.get_logger().info(
             f"ball of {settings.diameter_m * 1000:g} mm, {settings.mass_kg:.3f} kg; field in {self._field_ring}, "
             f"joints from {self._joint_ring or 'none'}"
@@ -118,6 +121,12 @@ class BallWorld(Node):
     def close(self) -> None:
         """Stop the world and remove its ring."""
         self._undo.close()
+
+    def _on_put_back(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        objection = self._world.put_back()
+        response.success = not objection
+        response.message = objection or "put back once the plate is level and still"
+        return response
 
     def _tell(self, sentence: str) -> None:
         self.get_logger().info(sentence)
@@ -178,7 +187,7 @@ class BallWorld(Node):
 def way_back(replace_after_s: float, fallen_s: float) -> str:
     """How a ball comes back that fell off a while ago [s], in words; `replace_after_s` as of `WorldConfig`."""
     if not replace_after_s:
-        return "start ball_world anew to put it back (replace_after_s is 0)"
+        return "start ball_world anew to put it back (replace_after_s is 0), or call its service put_back"
     if fallen_s < replace_after_s:
         return f"put back after {replace_after_s:g} s"
     return "put back once the plate is level and still (start_slope, start_turn_rate_rad_s)"

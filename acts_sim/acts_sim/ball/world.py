@@ -156,6 +156,7 @@ class World:
         self._layout = None if arranged.is_matrix else arranged
         self._has_skin = arranged.patch_of != NO_PATCH
         self._rng = np.random.default_rng(config.seed)
+        self._is_asked_for = False
         self._half_x_m = geometry.cols * geometry.pitch_m / 2
         self._half_y_m = geometry.rows * geometry.pitch_y_m / 2
         self._require_start_on_plate()
@@ -179,6 +180,20 @@ class World:
         if self._layout is None:
             return picture.reshape(-1)
         return self._layout.matrix(picture * self._has_skin).reshape(-1).astype(np.float64, copy=False)
+
+    def put_back(self) -> str:
+        """Put a ball that fell off on the plate again, once that is level and still; from any thread.
+
+        Returns
+        -------
+        str
+            Why there is nothing to be put back, or nothing.
+        """
+        phase = self.state.phase
+        if phase is not Phase.FALLEN:
+            return f"the ball is {phase.value}"
+        self._is_asked_for = True
+        return ""
 
     def step(self, joints: JointMotion | None, dt_s: float) -> WorldState:
         """Advance the world by one time step.
@@ -215,6 +230,7 @@ class World:
         )
         if state.phase is Phase.ROLLING:
             if not (abs(rolling.x_m) <= self._half_x_m and abs(rolling.y_m) <= self._half_y_m):
+                self._is_asked_for = False
                 state = replace(state, phase=Phase.FALLEN, phase_time_s=0.0, ball=BallState(), falls=state.falls + 1)
         elif self._is_put_on(state, plate):
             start = BallState(self.config.start_x_m, self.config.start_y_m)
@@ -248,5 +264,5 @@ class World:
         if state.phase is Phase.AWAITED:
             due = state.phase_time_s >= config.start_after_s
         else:
-            due = config.replace_after_s > 0.0 and state.phase_time_s >= config.replace_after_s
+            due = self._is_asked_for or 0.0 < config.replace_after_s <= state.phase_time_s
         return due and plate.slope <= config.start_slope and plate.turn_rate_rad_s <= config.start_turn_rate_rad_s

@@ -17,6 +17,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from peers import Peers
+from std_srvs.srv import Trigger
 
 from acts_core.errors import REFUSED_EXIT_CODE, SettingsError
 from acts_core.robots import ur5e
@@ -296,6 +297,11 @@ def test_a_ball_that_has_fallen_off_is_told_with_how_it_comes_back(
     pushed = ("push_speed_m_s:=2.0", "push_period_s:=0.05", f"replace_after_s:={replace_after_s}")
     with world(103, tmp_path, "joint_ring:=none", "start_after_s:=0.0", *pushed):
         observer.until_reported(b"\x01", f"the ball has fallen off the plate: {words}")
+        put_back = observer.peer.create_client(Trigger, "/plate/ball_world/put_back")
+        observer.until(put_back.service_is_ready)
+        seen, answer = len(observer.truth), put_back.call_async(Trigger.Request())
+        observer.until(lambda: answer.done() and len(observer.truth) > seen)
+        assert answer.result().success, answer.result().message
 
 
 @pytest.mark.parametrize(

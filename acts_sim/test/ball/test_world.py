@@ -92,6 +92,22 @@ def test_a_ball_that_fell_off_is_put_back_when_asked_for() -> None:
     assert state.falls == 1
 
 
+def test_a_ball_that_fell_off_is_put_back_at_once_when_somebody_asks_for_it() -> None:
+    world = World(WorldConfig(start_after_s=0.1))
+    assert world.put_back() == "the ball is not yet on the plate"
+    run(world, LEVEL, 0.2)
+    assert world.put_back() == "the ball is on the plate"
+    fallen = run(world, tilted(0.0, 0.1), 0.8)
+    assert fallen.phase is Phase.FALLEN
+    assert world.put_back() == ""
+    # Not on a slope.
+    assert run(world, tilted(0.0, 0.1), 0.1).phase is Phase.FALLEN
+    assert run(world, LEVEL, 0.01).phase is Phase.ROLLING
+    # Once for each time that somebody asks.
+    run(world, tilted(0.0, 0.1), 0.8)
+    assert run(world, LEVEL, 1.0).phase is Phase.FALLEN
+
+
 def test_pushes_come_in_time_with_the_given_speed() -> None:
     config = WorldConfig(
         start_after_s=0.0,

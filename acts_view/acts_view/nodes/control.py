@@ -31,6 +31,7 @@ TRIGGERS = {
     "calibrate": "driver/calibrate",
     "balance": "ball_control/start",
     "stop_balancing": "ball_control/stop",
+    "put_back": "ball_world/put_back",
     "grasp": "hand_reflexes/grasp",
     "release": "hand_reflexes/release",
     "stop_grasp": "hand_reflexes/stop",

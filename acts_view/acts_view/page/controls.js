@@ -12,6 +12,7 @@ const BUTTONS = [
   { do: "calibrate", title: "Calibrate" },
   { do: "balance", title: "Start balancing", moves: true },
   { do: "stop_balancing", title: "Stop balancing", stops: true },
+  { do: "put_back", title: "Put the ball back", moves: true },
   { do: "grasp", title: "Grasp", moves: true },
   { do: "release", title: "Release", moves: true },
   { do: "stop_grasp", title: "Stop the hand", stops: true },
