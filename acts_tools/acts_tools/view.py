@@ -44,15 +44,19 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     source.add_argument("--npz", type=Path, metavar="FILE", help="show samples or full frames of an npz file")
     source.add_argument("--board", metavar="PORT", help="show the board at a port: a path, auto, or serial:NUMBER")
     parser.add_argument(
-        "--layout", default="square", help=f"layout of a recording or board: {', '.join(LAYOUTS)}, or a file (square)"
+        "--layout",
+        default="square",
+        help=f"layout of a recording or board: {', '.join(LAYOUTS)}, or a file (default: square)",
     )
     parser.add_argument(
-        "--size", type=int, nargs=2, default=[32, 32], metavar=("ROWS", "COLS"), help="size of a board (32 32)"
+        "--size", type=int, nargs=2, default=[32, 32], metavar=("ROWS", "COLS"), help="size of a board (default: 32 32)"
     )
     parser.add_argument(
-        "--protocol", default="binary", help="protocol of a board: binary, raster_ascii or your own (binary)"
+        "--protocol", default="binary", help="protocol of a board: binary, raster_ascii or your own (default: binary)"
     )
-    parser.add_argument("--baud", type=int, default=115200, help="speed of a board, without effect on USB (115200)")
+    parser.add_argument(
+        "--baud", type=int, default=115200, help="bits per second of a board; no effect on USB boards (default: 115200)"
+    )
     parser.add_argument(
         "--control",
         action="store_true",
@@ -60,8 +64,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "this moves robots",
     )
     parser.add_argument("--outlines", action="store_true", help="show outlines of contacts, which costs CPU")
-    parser.add_argument("--host", default="127.0.0.1", help="address to listen on (127.0.0.1: this machine only)")
-    parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (8080)")
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="address to listen on (default: 127.0.0.1, this machine only)"
+    )
+    parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (default: 8080)")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -39,7 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
+    parser.add_argument("bag", type=Path, metavar="BAG", help="folder of the bag, or its .mcap or .db3 file")
 
 
 def run(arguments: argparse.Namespace) -> int:

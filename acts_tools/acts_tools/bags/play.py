@@ -33,7 +33,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("bag", type=Path, help="folder of the bag, or its .mcap or .db3 file")
+    parser.add_argument("bag", type=Path, metavar="BAG", help="folder of the bag, or its .mcap or .db3 file")
     parser.add_argument("-r", "--rate", type=real(1e-3), default=1.0, help="speed, 2 is twice as fast (default: 1)")
     parser.add_argument("-l", "--loop", action="store_true", help="start again at the end, until Ctrl-C")
     parser.add_argument(

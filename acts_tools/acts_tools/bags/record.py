@@ -47,7 +47,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("topics", nargs="*", help="topics, such as /plate/contact")
+    parser.add_argument("topics", nargs="*", metavar="TOPIC", help="topics, such as /plate/contact")
     parser.add_argument("-a", "--all", action="store_true", help="all topics that are not hidden")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to make (default: rosbag2_<time>)")
     parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")

@@ -39,7 +39,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--seconds", type=real(5.0, 600.0), help="shorten it: trace only what fits into this time (default: all)"
     )
     ball.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    ball.add_argument("--robot-ip", default="127.0.0.1", help="loopback address of the simulated robot")
+    ball.add_argument(
+        "--robot-ip", default="127.0.0.1", help="loopback address of the simulated robot (default: %(default)s)"
+    )
     ball.add_argument(
         "--realtime-priority",
         type=whole(0, 99),
@@ -53,9 +55,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "result is good, that is, every act met all that is asked of it, and 1 if it only works "
         "(docs/hand_demo.md).",
     )
-    hand.add_argument("acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (all)")
+    hand.add_argument(
+        "acts", nargs="*", metavar="ACT", help="acts to play: sphere, slip, sharp, hand_to_hand (default: all)"
+    )
     hand.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    hand.add_argument("--seed", type=random_seed, default=5, help="seed of the simulated hands' variation")
+    hand.add_argument(
+        "--seed", type=random_seed, default=5, help="seed of the simulated hands' variation (default: %(default)s)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -56,7 +56,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=seconds,
         default=10.0,
         metavar="SECONDS",
-        help="how long to wait for a first report (10)",
+        help="how long to wait for a first report (default: 10)",
     )
     parser.add_argument(
         "-w",
@@ -64,7 +64,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         type=seconds,
         default=_ALL_S,
         metavar="SECONDS",
-        help=f"how long to listen from the first report on ({_ALL_S}); a node that is silent for more than "
+        help=f"how long to listen from the first report on (default: {_ALL_S}); a node that is silent for more than "
         f"{SILENT_AFTER_S:g} s at the end is named as stale",
     )
 

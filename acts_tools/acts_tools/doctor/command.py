@@ -42,7 +42,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--realtime", action="store_true", help="also require what realtime_priority needs")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
-    parser.add_argument("--root", type=Path, default=Path("/"), metavar="FOLDER", help="a folder in place of / (/)")
+    parser.add_argument(
+        "--root", type=Path, default=Path("/"), metavar="FOLDER", help="a folder in place of / (default: /)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -47,7 +47,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("-n", "--namespace", default="plate", help="namespace of the skin (plate)")
+    parser.add_argument("-n", "--namespace", default="plate", help="namespace of the skin (default: plate)")
     parser.add_argument("what", choices=(*_SERVICES, "set", *_TRANSITIONS))
     parser.add_argument("values", nargs="*", metavar="NAME=VALUE", help="parameters, with set")
 

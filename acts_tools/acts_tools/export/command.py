@@ -51,7 +51,7 @@ def add_parser(subparsers: Any) -> None:
         type=Path,
         metavar="PATH",
         help="folder to make, or with --to npz a file that ends in .npz "
-        "(such as touch_csv, touch.npz for the bag touch)",
+        "(default: for the bag touch, touch_csv or touch.npz)",
     )
     parser.add_argument("--skin", default="", metavar="NAMESPACE", help="skin to export, if there are several")
     parser.add_argument(
@@ -60,14 +60,17 @@ def add_parser(subparsers: Any) -> None:
         metavar="TOPIC",
         help="joint states to export, if there are several; none: leave them out",
     )
-    parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view ({_LAYOUT})")
+    parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view (default: {_LAYOUT})")
     parser.add_argument(
         "--rate",
         type=float,
         metavar="HZ",
-        help=f"rows a second, each with what was newest then; 0: one a frame (0; lerobot {_LEROBOT_HZ:.0f})",
+        help="rows a second, each with what was newest then; 0: one a frame "
+        f"(default: 0, for lerobot {_LEROBOT_HZ:.0f})",
     )
-    parser.add_argument("--task", default="touch", metavar="WORDS", help="lerobot: what is done in the bags (touch)")
+    parser.add_argument(
+        "--task", default="touch", metavar="WORDS", help="lerobot: what is done in the bags (default: touch)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -43,7 +43,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("topics", nargs="+", metavar="TOPIC", help="topics, such as /plate/contact")
     parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
-    parser.add_argument("--every", type=real(0.05), default=1.0, metavar="SECONDS", help="time between two reports (1)")
+    parser.add_argument(
+        "--every", type=real(0.05), default=1.0, metavar="SECONDS", help="time between two reports (default: 1)"
+    )
     parser.add_argument("--json", action="store_true", help="reports as lines of JSON")
 
 

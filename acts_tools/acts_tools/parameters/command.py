@@ -36,7 +36,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("node", help="its full name, such as /plate/reconstruction")
+    parser.add_argument("node", metavar="NODE", help="its full name, such as /plate/reconstruction")
     parser.add_argument("parameters", nargs="*", metavar="NAME[=VALUE]", help="names, or names with new values")
 
 

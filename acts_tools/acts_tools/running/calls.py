@@ -65,7 +65,8 @@ def call(
         names = (one for one, _ in node.get_service_names_and_types())
         hint = did_you_mean(name, names)
         raise error(
-            f"no {who} offers {name}: is it launched, in this namespace and with this ROS_DOMAIN_ID{hint or '?'}"
+            f"no {who} offers {name}: is it launched (a first start takes up to a minute), in this namespace and with "
+            f"this ROS_DOMAIN_ID{hint or '?'}"
         )
     try:
         future = ask(client, request)

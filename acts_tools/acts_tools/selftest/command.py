@@ -47,25 +47,39 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     side, seconds = whole(1, MAX_SIDE), real(0.5, 3600)
-    parser.add_argument("port", nargs="?", default="auto", help="a path, auto (default) or serial:NUMBER")
     parser.add_argument(
-        "--protocol", default="binary", help="protocol of the board: binary, raster_ascii or your own (binary)"
+        "port", nargs="?", default="auto", metavar="PORT", help="a path, auto or serial:NUMBER (default: auto)"
     )
     parser.add_argument(
-        "--rows", type=side, default=32, help="rows of the array, with raster_ascii, your own and --sim (32)"
+        "--protocol", default="binary", help="protocol of the board: binary, raster_ascii or your own (default: binary)"
     )
     parser.add_argument(
-        "--cols", type=side, default=32, help="columns of the array, with raster_ascii, your own and --sim (32)"
+        "--rows", type=side, default=32, help="rows of the array, with raster_ascii, your own and --sim (default: 32)"
     )
     parser.add_argument(
-        "--baud", type=whole(2400, 12_000_000), default=115200, help="baud rate; no effect on USB boards (115200)"
+        "--cols",
+        type=side,
+        default=32,
+        help="columns of the array, with raster_ascii, your own and --sim (default: 32)",
     )
-    parser.add_argument("--untouched-s", type=seconds, default=4.0, metavar="S", help="time untouched (4)")
-    parser.add_argument("--touch-s", type=seconds, metavar="S", help="time to roll a hand over the skin (20; --sim 6)")
+    parser.add_argument(
+        "--baud",
+        type=whole(2400, 12_000_000),
+        default=115200,
+        help="bits per second; no effect on USB boards (default: 115200)",
+    )
+    parser.add_argument("--untouched-s", type=seconds, default=4.0, metavar="S", help="time untouched [s] (default: 4)")
+    parser.add_argument(
+        "--touch-s", type=seconds, metavar="S", help="time to roll a hand over the skin [s] (default: 20, with --sim 6)"
+    )
     parser.add_argument("--no-touch", action="store_true", help="skip the touch: the wiring is not tested")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report, with all maps, as JSON")
     parser.add_argument(
-        "--picture", type=Path, metavar="FILE", default=Path("out/selftest.png"), help="PNG (out/selftest.png)"
+        "--picture",
+        type=Path,
+        metavar="FILE",
+        default=Path("out/selftest.png"),
+        help="PNG to draw (default: out/selftest.png)",
     )
     parser.add_argument("--sim", action="store_true", help="test a virtual board, pressed by a simulated roller")
     parser.add_argument(

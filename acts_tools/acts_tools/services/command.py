@@ -40,7 +40,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("service", nargs="?", help="its full name, such as /hand/hand_reflexes/grasp")
+    parser.add_argument(
+        "service", nargs="?", metavar="SERVICE", help="its full name, such as /hand/hand_reflexes/grasp"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -95,8 +97,8 @@ def _require_trigger(node: Node, executor: Executor, name: str) -> None:
         if time.monotonic() > deadline_s:
             triggers = (one for one, types in node.get_service_names_and_types() if _TRIGGER in types)
             raise SettingsError(
-                f"no node offers {name}: is it launched, with this ROS_DOMAIN_ID? `acts call` lists those there are"
-                + did_you_mean(name, triggers)
+                f"no node offers {name}: is it launched (a first start takes up to a minute), with this ROS_DOMAIN_ID? "
+                "`acts call` lists those there are" + did_you_mean(name, triggers)
             )
         spin_for(executor, _LOOK_S)
     if _TRIGGER not in types:

@@ -96,7 +96,10 @@ def test_a_service_that_nobody_offers_is_told(
 ) -> None:
     monkeypatch.setattr(command, "FOUND_S", 0.2)
     assert main(["call", "/hand/reflexes/grab"]) == 1
-    assert "no node offers /hand/reflexes/grab: is it launched" in capsys.readouterr().err
+    assert (
+        "no node offers /hand/reflexes/grab: is it launched (a first start takes up to a minute)"
+        in capsys.readouterr().err
+    )
     assert main(["call", "left hand/grasp"]) == 1
     assert "error: 'left hand/grasp' is no name of a service" in capsys.readouterr().err
     assert main(["call"]) == 1

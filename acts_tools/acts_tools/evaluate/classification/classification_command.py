@@ -46,7 +46,11 @@ def add_parser(commands: Any) -> None:
         "recordings becomes the library, the rest is classified",
     )
     parser.add_argument(
-        "--m", nargs="+", type=taxels, metavar="M", help=f"taxels per frame (default: {MS}; of --frames: 55)"
+        "--m",
+        nargs="+",
+        type=taxels,
+        metavar="M",
+        help=f"taxels per frame (default: {' '.join(map(str, MS))}; of --frames: 55)",
     )
     for name, text in (
         ("arms", "simulated arms, each with a skin, spots and a library of its own"),

@@ -39,10 +39,10 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate gait``."""
     parser = commands.add_parser(
         "gait",
-        help="steps on recorded or simulated insoles",
+        help="detect steps on recorded or simulated insoles",
         description="Find the steps of both feet, and compare their number and cadence with what the force curve of "
         "the whole recording shows; without --frames on simulated insoles, where the truth is known. docs/gait.md "
-        "tells what the numbers mean.",
+        "explains the numbers.",
     )
     parser.add_argument(
         "--frames",

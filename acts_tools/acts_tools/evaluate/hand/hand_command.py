@@ -33,7 +33,7 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate hand``."""
     parser = commands.add_parser(
         "hand",
-        help="the reflexes of the simulated hand, scenario by scenario",
+        help="score the reflexes of the simulated hand, scenario by scenario",
         description="Run the simulated hand, its skin and its reflexes in one process, faster than real time; the same "
         "seed gives the same bits. With --live, run them as processes, as on a real hand. docs/reflexes.md explains "
         "the numbers.",

@@ -38,7 +38,7 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate objects``."""
     parser = commands.add_parser(
         "objects",
-        help="support accuracy over M on simulated presses of 30 objects",
+        help="score the support accuracy over M on simulated presses of 30 objects",
         description="Press every object down and up again at a random position, angle and depth. Compare the paper's "
         "method and linear interpolation, each with three sampling schemes, with a method of ours with tracking on "
         "the same frames, from first to last touch.",

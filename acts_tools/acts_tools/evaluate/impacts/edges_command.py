@@ -43,9 +43,9 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate edges``."""
     parser = commands.add_parser(
         "edges",
-        help="on edges that strike the simulated skin",
-        description="Let edges strike the simulated skin, and compare the force and the place that are told with the "
-        "true ones. docs/impacts.md tells what the numbers mean.",
+        help="measure force and place of edges that strike the simulated skin",
+        description="Let edges strike the simulated skin, and compare the reported force and place with the true "
+        "ones. docs/impacts.md explains the numbers.",
     )
     parser.add_argument(
         "--scheme", nargs="+", default=list(_SCHEMES), choices=_SCHEMES, help=f"default: {' '.join(_SCHEMES)}"

@@ -46,10 +46,10 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate impacts``."""
     parser = commands.add_parser(
         "impacts",
-        help="on tennis balls dropped on the simulated skin",
-        description="Drop tennis balls from table height on the simulated skin, sample the bounce with more and more "
-        "taxels a frame, and take how many frames see it, whether and how soon it is told, and how well its time and "
-        "force are known. docs/impacts.md tells what the numbers mean.",
+        help="detect bounces of tennis balls on the simulated skin",
+        description="Drop tennis balls from table height on the simulated skin, and sample the bounce with more and "
+        "more taxels a frame. Count the frames that see it, and compare the reported onset, duration and force with "
+        "the true ones. docs/impacts.md explains the numbers.",
     )
     add_m(parser, _M)
     parser.add_argument(

@@ -49,9 +49,9 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate ricochet``."""
     parser = commands.add_parser(
         "ricochet",
-        help="on rubber balls thrown at the simulated skin from eight directions",
+        help="estimate the direction of rubber balls thrown at the simulated skin",
         description="Throw rubber balls at the simulated skin at a shallow angle, from eight directions and with three "
-        "speeds, and estimate the direction. docs/impacts.md tells what the numbers mean.",
+        "speeds, and estimate the direction. docs/impacts.md explains the numbers.",
     )
     parser.add_argument("--m", type=simulated_taxels, default=64, help="taxels per frame (default: %(default)s)")
     parser.add_argument(

@@ -43,9 +43,9 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate outlines``."""
     parser = commands.add_parser(
         "outlines",
-        help="on soft objects that meet the simulated skin",
+        help="trace the outlines of soft bodies that meet the simulated skin",
         description="Let a tennis ball, a silicone block and a balloon meet the simulated skin, and compare the "
-        "outline of each frame with the true one. docs/outlines.md tells what the numbers mean.",
+        "outline of each frame with the true one. docs/outlines.md explains the numbers.",
     )
     add_m(parser, _M)
     parser.add_argument("--body", nargs="+", choices=tuple(BODIES), default=list(BODIES), help="default: all")

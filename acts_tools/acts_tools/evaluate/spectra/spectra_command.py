@@ -40,11 +40,11 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate spectra``."""
     parser = commands.add_parser(
         "spectra",
-        help="on motors that vibrate on the simulated skin",
+        help="find the frequencies of motors on the simulated skin",
         description="Hold motors of 10 to 400 Hz onto the simulated skin for a second, and look for their frequency "
         "and amplitude in the samples; with more taxels a frame only those below half the frame rate. Then "
         "the same with all samples of one taxel, and tones up to half of their rate. "
-        "docs/spectra.md tells what the numbers mean.",
+        "docs/spectra.md explains the numbers.",
     )
     add_m(parser, _M)
     add_scene_arguments(parser, 25, "motors for each M")

@@ -39,10 +39,10 @@ def add_parser(commands: Any) -> None:
     """Add ``acts evaluate wearables``."""
     parser = commands.add_parser(
         "wearables",
-        help="on events of simulated worn skins, and on untouched ones",
+        help="detect events on simulated worn skins, and none on untouched ones",
         description="Tap an arm, catch a ball, step, hit a helmet, touch a chest and juggle with a leg on simulated "
         "skins, and compare the onset of each event with the truth; then leave each skin alone, with noise and drift. "
-        "docs/wearables.md tells what the numbers mean.",
+        "docs/wearables.md explains the numbers.",
     )
     parser.add_argument("--scene", nargs="*", choices=tuple(SCENES), default=list(SCENES), help="default: all")
     parser.add_argument(
