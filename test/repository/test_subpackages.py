@@ -1,10 +1,10 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The house of the code: packages whose imports point one way, folders (rooms) of one subject each, no circles.
+"""The structure of the code: imports between packages point one way, a subpackage has one subject, nothing is circular.
 
-A room is entered by its `__init__`: what that exports is public, all else is the room's own. The rooms `nodes`,
-`process`, `processes` and `executables` are where programs begin, and `bags` needs a library that not all have: their
+A subpackage is imported by its `__init__`: what that exports is public, all else is private. Programs begin in the
+subpackages `nodes`, `process`, `processes` and `executables`, and `bags` needs a library that not all have: their
 modules are imported one by one, so that a program loads no more than it needs.
 """
 
@@ -34,7 +34,7 @@ LAYERS = (
 """Packages may import from those of earlier lines, and from themselves."""
 
 LIBRARIES = set().union(*LAYERS[:3])
-"""Packages whose rooms are closed. Commands of acts_tools are programs, of which each is a room for itself."""
+"""Packages whose subpackages are closed. Those of acts_tools are not: they are commands and their parts."""
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,12 @@ def modules() -> dict[str, Path]:
 
 
 MODULES = modules()
-ROOMS = {name for name, path in MODULES.items() if path.name == "__init__.py"}
+SUBPACKAGES = {name for name, path in MODULES.items() if path.name == "__init__.py"}
 
 
-def room_of(module: str) -> str:
+def subpackage_of(module: str) -> str:
     """The folder that a module lies in; of a folder, itself."""
-    return module if module in ROOMS else module.rpartition(".")[0]
+    return module if module in SUBPACKAGES else module.rpartition(".")[0]
 
 
 def imports(module: str) -> Iterator[Import]:
@@ -83,9 +83,9 @@ def edges() -> list[Import]:
 
 
 @cache
-def exported(room: str) -> set[str]:
-    """What a room's `__init__` names in `__all__`."""
-    for node in ast.parse(MODULES[room].read_text()).body:
+def exported(subpackage: str) -> set[str]:
+    """What a subpackage's `__init__` names in `__all__`."""
+    for node in ast.parse(MODULES[subpackage].read_text()).body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
             return set(ast.literal_eval(node.value))
     return set()
@@ -94,7 +94,7 @@ def exported(room: str) -> set[str]:
 def test_there_is_a_house_to_look_at() -> None:
     assert len(MODULES) > 300
     assert len(edges()) > 1500
-    assert len(ROOMS) > 40
+    assert len(SUBPACKAGES) > 40
 
 
 def test_imports_between_packages_point_one_way() -> None:
@@ -111,17 +111,17 @@ def test_imports_between_packages_point_one_way() -> None:
     assert not wrong
 
 
-def test_a_room_is_entered_by_what_it_exports() -> None:
+def test_a_subpackage_is_entered_by_what_it_exports() -> None:
     wrong = set()
     for edge in edges():
-        room = room_of(edge.source)
-        package, _, inner = room.partition(".")
-        if package not in LIBRARIES or not inner or room == room_of(edge.importer):
+        subpackage = subpackage_of(edge.source)
+        package, _, inner = subpackage.partition(".")
+        if package not in LIBRARIES or not inner or subpackage == subpackage_of(edge.importer):
             continue
-        if room.rpartition(".")[2] in ENTRANCES:
+        if subpackage.rpartition(".")[2] in ENTRANCES:
             continue
-        by_init = edge.source == room or f"{room}.{edge.name}" == edge.source
-        if not by_init or (edge.name not in exported(room) and edge.source not in ROOMS):
+        by_init = edge.source == subpackage or f"{subpackage}.{edge.name}" == edge.source
+        if not by_init or (edge.name not in exported(subpackage) and edge.source not in SUBPACKAGES):
             wrong.add(f"{edge.importer} imports {edge.name} from {edge.source}")
     assert not wrong
 
@@ -129,7 +129,7 @@ def test_a_room_is_entered_by_what_it_exports() -> None:
 def test_modules_do_not_import_one_another_in_circles() -> None:
     graph: dict[str, set[str]] = {}
     for edge in edges():
-        # A name out of the own room's __init__ would be one; what is outside of the room enters by it.
+        # A name out of the own subpackage's __init__ would be one; what is outside of the subpackage enters by it.
         if edge.source != edge.importer:
             graph.setdefault(edge.importer, set()).add(edge.source)
     try:
@@ -142,7 +142,7 @@ def test_folders_side_by_side_in_acts_tools_do_not_import_one_another_in_circles
     """A folder and one within it may: the command of a folder loads what these do, and they share its modules."""
     graphs: dict[str, dict[str, set[str]]] = {}
     for edge in edges():
-        importer, source = room_of(edge.importer).split("."), room_of(edge.source).split(".")
+        importer, source = subpackage_of(edge.importer).split("."), subpackage_of(edge.source).split(".")
         # The first folder of each that is not the other's, too.
         apart = next((n for n, (one, other) in enumerate(zip(importer, source, strict=False)) if one != other), 0)
         if apart and importer[0] == "acts_tools":
@@ -157,20 +157,26 @@ def test_folders_side_by_side_in_acts_tools_do_not_import_one_another_in_circles
     assert circles == {}
 
 
-@pytest.mark.parametrize("room", sorted(room for room in ROOMS if room.split(".")[0] in LIBRARIES and "." in room))
-def test_a_room_says_what_it_is_for_and_exports_what_exists(room: str) -> None:
-    tree = ast.parse(MODULES[room].read_text())
+@pytest.mark.parametrize(
+    "subpackage",
+    sorted(subpackage for subpackage in SUBPACKAGES if subpackage.split(".")[0] in LIBRARIES and "." in subpackage),
+)
+def test_a_subpackage_says_what_it_is_for_and_exports_what_exists(subpackage: str) -> None:
+    tree = ast.parse(MODULES[subpackage].read_text())
     assert len(ast.get_docstring(tree) or "") > 40
     taken = {
         alias.asname or alias.name for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names
     }
-    if room.rpartition(".")[2] not in ENTRANCES:
-        assert taken == exported(room)
+    if subpackage.rpartition(".")[2] not in ENTRANCES:
+        assert taken == exported(subpackage)
 
 
-def test_rooms_are_small_enough_to_look_around_in() -> None:
-    counts = {room: sum(path.parent == MODULES[room].parent for path in MODULES.values()) - 1 for room in ROOMS}
-    assert {room: n for room, n in counts.items() if n > MODULES_MAX} == {}
+def test_subpackages_are_small_enough_to_look_around_in() -> None:
+    counts = {
+        subpackage: sum(path.parent == MODULES[subpackage].parent for path in MODULES.values()) - 1
+        for subpackage in SUBPACKAGES
+    }
+    assert {subpackage: n for subpackage, n in counts.items() if n > MODULES_MAX} == {}
 
 
 def test_folders_of_tests_are_no_larger() -> None:
