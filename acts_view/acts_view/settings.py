@@ -38,7 +38,7 @@ class ViewSettings:
     outlines: bool = setting(
         False, "whether to ask the reconstruction for outlines of contacts, which costs CPU there while a page is open"
     )
-    rate_hz: float = setting(30.0, "how often new data are sent to the page", minimum=1.0, maximum=100.0)
+    rate_hz: float = setting(30.0, "how often new data are sent to the page [Hz]", minimum=1.0, maximum=100.0)
     send_limit_s: float = setting(
         5.0, "a page that receives nothing for this long is disconnected [s]", minimum=0.1, maximum=60.0
     )

@@ -53,7 +53,7 @@ class _OwnSettings(RealtimeConfig, LoopConfig):
     """Parameters of the node."""
 
     status_rate_hz: float = setting(
-        50.0, "how often the status is published", minimum=1.0, maximum=500.0, changeable=Changeable.RUNNING
+        50.0, "how often the status is published [Hz]", minimum=1.0, maximum=500.0, changeable=Changeable.RUNNING
     )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 

@@ -53,7 +53,7 @@ class BallStateSettings(EstimatorConfig):
 
     publish_rate_hz: float = setting(
         250.0,
-        "how often the state is published, at most as often as contacts arrive",
+        "how often the state is published, at most as often as contacts arrive [Hz]",
         minimum=1.0,
         maximum=2000.0,
         changeable=Changeable.RUNNING,

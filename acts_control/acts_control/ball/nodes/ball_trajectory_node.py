@@ -48,7 +48,7 @@ class BallTrajectorySettings(TrajectoryConfig):
     """Parameters of the node."""
 
     publish_rate_hz: float = setting(
-        125.0, "how often the reference is published", minimum=10.0, maximum=500.0, changeable=Changeable.RUNNING
+        125.0, "how often the reference is published [Hz]", minimum=10.0, maximum=500.0, changeable=Changeable.RUNNING
     )
     frame_id: str = setting("", "frame of the skin; empty or none: the name of the namespace, with _ for /")
 

@@ -20,7 +20,7 @@ _LEAST_CYCLES = 2
 class HandLoopConfig:
     """Rates and limits of the loop."""
 
-    rate_hz: float = setting(100.0, "how often the motors are read and commanded", minimum=10.0, maximum=500.0)
+    rate_hz: float = setting(100.0, "how often the motors are read and commanded [Hz]", minimum=10.0, maximum=500.0)
     max_speed_rad_s: float = setting(
         3.0, "fastest that a joint's goal moves towards the command [rad/s]", minimum=0.01, maximum=8.0
     )

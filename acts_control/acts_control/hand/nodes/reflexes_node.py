@@ -61,13 +61,13 @@ _TIMING_PERIOD_S = 1.0
 class _OwnSettings(SupervisorConfig, MotorSettings):
     """Parameters of the node."""
 
-    rate_hz: float = setting(250.0, "how often the hand is read and moved", minimum=10.0, maximum=500.0)
+    rate_hz: float = setting(250.0, "how often the hand is read and moved [Hz]", minimum=10.0, maximum=500.0)
     max_speed_rad_s: float = setting(12.0, "fastest that a joint's goal moves [rad/s]", minimum=0.01, maximum=30.0)
     reflexes: str = setting(
         "sharp slip sphere",
         f"which act, with blanks between: {', '.join(REFLEXES)}; none: the hand grasps and holds, no more",
     )
-    status_rate_hz: float = setting(50.0, "how often the status is published", minimum=1.0, maximum=500.0)
+    status_rate_hz: float = setting(50.0, "how often the status is published [Hz]", minimum=1.0, maximum=500.0)
 
     def __post_init__(self) -> None:
         MotorSettings.__post_init__(self)

@@ -42,7 +42,7 @@ class RobotConfig(TiltLimits):
     """Settings that every robot looks at; those of a robot are a subclass of this."""
 
     control_rate_hz: int = setting(
-        125, "control steps and commands a second: 125, 250 or 500", minimum=125, maximum=500
+        125, "rate of control steps and commands [Hz]: 125, 250 or 500", minimum=125, maximum=500
     )
     loopback_only: bool = setting(
         False, "for a simulated skin: refuse a real robot, and a robot_ip that is no numeric address of this machine"
