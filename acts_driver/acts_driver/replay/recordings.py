@@ -81,8 +81,8 @@ class ReplayOptions:
         Topic of a bag; empty for its only one of type TactileSamples.
     frames_hz : float
         Frames per second of full frames; 0 for the file's own `rate_hz`.
-    sampling : SamplingConfig
-        How full frames are sampled; its rows and columns are ignored.
+    sampling : callable
+        From rows and columns to how full frames are sampled.
     rate_cap_hz : float
         At most so many samplings per second of full frames; 0 for `BOARD_RATE_HZ`.
     skin_map : callable
