@@ -30,7 +30,7 @@ def add_parser(commands: Any) -> None:
         description="Read the recordings of a public repository, and write them as `frames` with `rate_hz`, `live`, "
         "`start`, `length` and `label`. docs/recovery.md says where to get them.",
     )
-    parser.add_argument("which", choices=tuple(_SETS), help="set of recordings")
+    parser.add_argument("which", choices=tuple(_SETS), metavar="SET", help=f"recordings: {', '.join(_SETS)}")
     parser.add_argument("source", type=Path, metavar="FOLDER", help="clone of their repository")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="npz file to write")
     parser.set_defaults(evaluate=_run)
