@@ -184,8 +184,7 @@ class ViewServer:
         period_s : float
             From one call to the next [s]; calls that are late are not made up for.
         call : callable
-            Must not take long. What it shows reaches the clients without waking another thread. It may return by how
-            much later the next call is due [s].
+            Must not take long; shows without waking a thread. It may return by how much later the next call is due [s].
         """
 
         def again(due_s: float) -> None:
