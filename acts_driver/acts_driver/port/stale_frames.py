@@ -17,9 +17,10 @@ _HELD_S = 0.1
 
 
 class StaleFrames:
-    """Drops the frames that came before a board's first reply, which may be of an earlier session.
+    """Drops the frames that came before a board's reply to this host: they may be of an earlier session.
 
-    The USB buffer of a Teensy keeps up to 8 KB that a host did not read, and sends them to the next host.
+    The USB buffer of a Teensy keeps up to 8 KB that a host did not read, and sends them to the next host. A reply to
+    the earlier host may be among them, so the last one counts that came before it was known which board this is.
 
     Parameters
     ----------
@@ -34,12 +35,12 @@ class StaleFrames:
 
     def __init__(self, decoder: Decoder) -> None:
         self._decoder = decoder
-        self._before_answer: int | None = None
+        self._before_answer = 0
         self.is_over = False
 
     def receive(self, message: BoardMessage) -> None:
-        """Note the first reply; called with every message while bytes are decoded."""
-        if isinstance(message, Reply | UnknownReply) and self._before_answer is None:
+        """Note a reply; called with every message while bytes are decoded."""
+        if isinstance(message, Reply | UnknownReply) and not self.is_over:
             self._before_answer = self._decoder.frames
 
     def new(self, frames: list[SampleFrame], *, is_known: bool) -> list[SampleFrame]:
@@ -56,7 +57,7 @@ class StaleFrames:
             return []
         self.is_over = True
         first = self._decoder.frames - len(frames)
-        return frames[max((self._before_answer or 0) - first, 0) :]
+        return frames[max(self._before_answer - first, 0) :]
 
 
 class HeldBack:

@@ -14,11 +14,20 @@ from pathlib import Path
 from pty_board import DEADLINE_S, PtyBoard, frame, wait_for
 
 from acts_core.frames import SampleFrame
-from acts_core.wire import BoardSettings, BoardState, Reply, ReplyStatus, cobs, encode_frame
+from acts_core.wire import (
+    BoardSettings,
+    BoardState,
+    Reply,
+    ReplyStatus,
+    StreamDecoder,
+    cobs,
+    encode_frame,
+    encode_query,
+)
 from acts_core.wire.commands import NO_MODEL, encode_reply
 from acts_driver.board.session import FIRMWARE
 from acts_driver.nodes.intake import Intake
-from acts_driver.port import SerialSource
+from acts_driver.port import SerialSource, StaleFrames
 from acts_driver.settings import DriverSettings
 
 
@@ -71,6 +80,16 @@ def test_frames_of_the_session_before_are_not_used(tmp_path: Path) -> None:
     statistics = intake.stream.statistics
     assert {one.sequence for one in published} <= {one.sequence for one in new}
     assert (statistics.lost, statistics.restarts, intake.stream.clock.state.resets) == (0, 0, 0)
+
+
+def test_a_reply_to_the_program_before_does_not_make_the_frames_behind_it_new() -> None:
+    to_other, to_this = (reply_to(encode_query(number).removesuffix(cobs.DELIMITER)) for number in (4, 5))
+    decoder = StreamDecoder(lambda message: stale_frames.receive(message))
+    stale_frames = StaleFrames(decoder)
+    data = [encode_frame(frame(number)) for number in range(3)]
+    frames = decoder.feed(data[0] + to_other + data[1] + to_this + data[2])
+    # All of it was read at once, and the dialogue has gone on before the frames were handed on.
+    assert [one.sequence for one in stale_frames.new(frames, is_known=True)] == [2]
 
 
 def test_frames_of_a_board_that_does_not_answer_are_used(tmp_path: Path) -> None:
