@@ -97,11 +97,14 @@ class Bench(Listener):
             setattr(message, name, value)
         self.publisher.publish(message)
 
-    def take(self, sequence: int, counts: NDArray) -> None:
-        """Hand the node the counts (32, 32) of all taxels, a thousand frames a second from `FIRST_NS` on, at once."""
+    def take(self, sequence: int, counts: NDArray, set_by_ns: int = 0) -> None:
+        """Hand the node the counts (32, 32) of all taxels, a thousand frames a second from `FIRST_NS` on, at once.
+
+        By a clock that was set meanwhile by so much [ns].
+        """
         taken = np.rint(counts.ravel()).astype(np.uint16)
         frame = SampleFrame(sequence, 1000 * sequence, 1, Scheme.RASTER, 32, 32, 0, EVERYWHERE, taken)
-        self.node.take([(frame, FIRST_NS + 1_000_000 * sequence)], "plate")
+        self.node.take([(frame, FIRST_NS + 1_000_000 * sequence + set_by_ns)], "plate")
 
     def contact(self, sequence: int) -> Contact:
         """Wait for the contact of one frame."""

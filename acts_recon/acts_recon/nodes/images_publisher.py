@@ -76,6 +76,8 @@ class ImagesPublisher(FramePublisher):
         """See `FramePublisher.publish`."""
         stamp_ns, frame_id, due = frame.stamp_ns, frame.header.frame_id, frame.due
         if self._series.is_wanted:
+            if not self._series.takes(stamp_ns):
+                self._series.publish(frame_id)
             self._series.add(stamp_ns, frame.sequence, frame.contact)
         if self._send_raw and self._raw_limit.due(time.monotonic()):
             self._publish_raw(self._raw_publisher, stamp_ns, frame_id)

@@ -20,6 +20,10 @@ from acts_ros.publishers import published
 LONGEST = 1024
 """Contacts in a message at most."""
 
+# A minute is what viewers take. Longer after one another are contacts of a stream that stood still, or of a clock that
+# was set.
+_LENGTH_MAX_NS = 60 * NS_PER_S
+
 # What the message holds: a stream whose numbers are no count of its frames, as of nanoseconds, misses more.
 _MOST_MISSING = 2**32 - 1
 
@@ -59,6 +63,11 @@ class SeriesPublisher:
         # What is kept belongs to the thread that adds to it.
         self._begins_anew = self._begins_anew or (is_wanted and not self.is_wanted)
         self.is_wanted = is_wanted
+
+    def takes(self, stamp_ns: int) -> bool:
+        """Whether a contact of this time [ns] goes with what is kept; if not, `publish` that first."""
+        stamps_ns = self._stamps_ns
+        return not stamps_ns or (stamps_ns[-1] <= stamp_ns and stamp_ns - stamps_ns[0] <= _LENGTH_MAX_NS)
 
     def add(self, stamp_ns: int, sequence: int, contact: Contact) -> None:
         """Keep a contact that has just been published; with one too many those before are dropped, and missing.

@@ -88,6 +88,20 @@ def test_no_contact_is_lost_where_viewers_get_few_messages(make_bench: Callable[
     assert not any(any(one.missing) for one in series)
 
 
+@pytest.mark.parametrize("step_s", [-3600, -0.05, 3600])
+def test_a_series_ends_where_the_clock_was_set(make_bench: Callable[..., Bench], step_s: float) -> None:
+    """Viewers take no contact that is newer than the newest, or older by more than a minute."""
+    bench = make_bench(43, image_rate_hz=0.1)
+    images = publisher_of(bench.node, ImagesPublisher)
+    series = bench.listen(ContactSeries, "view/contact_series", qos.VIEW)
+    bench.until(lambda: images._series.is_wanted)
+    for sequence in range(1, 1600):
+        bench.take(sequence, np.zeros((32, 32)), round(step_s * 1e9) if sequence > 1000 else 0)
+    bench.until(lambda: sum(len(one.age) for one in series) + len(images._series) == 1599)
+    assert all(0.0 <= age_s <= 60.0 for one in series for age_s in one.age)
+    assert not any(any(one.missing) for one in series)
+
+
 def test_contacts_that_are_dropped_because_nobody_publishes_them_are_missing(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(43)
     series = SeriesPublisher(bench.node)
