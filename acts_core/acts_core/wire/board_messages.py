@@ -23,6 +23,7 @@ _IMAGE = struct.Struct("<IQIBBH")
 # sequence, board_us, duration_us, object, objects, reserved
 _OBJECT = struct.Struct("<IQIBBH")
 _NO_OBJECT = 0xFF
+_COMMANDS = frozenset(kind for kind in PacketType if kind >= PacketType.QUERY)
 _U2 = np.dtype("<u2")
 _F4 = np.dtype("<f4")
 
@@ -90,6 +91,11 @@ def decode_message(packet: bytes) -> BoardMessage:
         return _decode_image(content)
     if kind == PacketType.OBJECT:
         return _decode_object(content)
+    if kind in _COMMANDS:
+        raise PacketError(
+            f"packet type {kind}, a command: what the host sends comes back; is there a board at this port, or what "
+            "echoes, such as a modem or a loop?"
+        )
     raise version_mismatch(f"packet type {kind}, which no board of this release sends")
 
 

@@ -256,6 +256,15 @@ def test_any_content_is_decoded_or_malformed(kind: PacketType, content: bytes) -
     assert decoder.crc_errors == 0
 
 
+def test_a_command_that_comes_back_is_told_as_such() -> None:
+    """It was told to be of firmware of another release."""
+    decoder = StreamDecoder()
+    for command in (encode_query(1), encode_configure(2, BoardSettings())):
+        decoder.feed(command)
+        assert "what the host sends comes back" in decoder.last_error
+    assert (decoder.malformed, decoder.messages) == (2, 0)
+
+
 def test_messages_without_a_listener_are_counted() -> None:
     decoder = StreamDecoder()
     assert decoder.feed(encode_reply(example_reply())) == []

@@ -221,7 +221,9 @@ def test_a_packet_of_many_chunks_that_is_too_long_is_rejected() -> None:
     ("changes", "words"),
     [
         ({"type": 2}, "reply of 40 bytes.*same release"),
-        ({"type": 17}, "type 17.*same release"),
+        ({"type": 5}, "type 5.*same release"),
+        ({"type": 17}, "type 17, a command: what the host sends comes back"),
+        ({"type": 23}, "type 23.*same release"),
         ({"version": 2}, "version 2.*same release"),
         ({"length": 47}, "48 bytes says it has 47"),
         ({"scheme": 99}, "scheme 99"),
