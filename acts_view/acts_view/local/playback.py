@@ -70,8 +70,9 @@ class Playback:
         self._seek_us: int | None = 0
         self._position_us = 0
         self._problem = ""
-        # Of the thread alone: the frames' clock at the beginning, what is still to be read, the first of it,
-        # and when the recording's time was 0.
+        # Of the thread alone: the frames' clock at the beginning, and what it would have been there as it is set where
+        # the recording is; what is still to be read, the first of it, and when the recording's time was 0.
+        self._first_us: int | None = None
         self._zero_us: int | None = None
         self._frames: Iterator[SampleFrame] = iter(())
         self._coming: SampleFrame | None = None
@@ -165,9 +166,13 @@ class Playback:
         from_us = max(seek_us - _RUN_UP_US, 0)
         self._frames = self._recording.frames(from_us)
         self._coming = next(self._frames, None)
+        # Where it was before, the clock may have been another.
+        self._zero_us = self._first_us
         if self._coming is not None:
+            if self._first_us is None:
+                self._first_us = self._zero_us = self._coming.board_us - from_us
             place_us = self._place_us(self._coming)
-            if self._zero_us is None or place_us < from_us - _CLOCK_SET_US or self._is_beyond_end(place_us):
+            if place_us < from_us - _CLOCK_SET_US or self._is_beyond_end(place_us):
                 self._zero_us = self._coming.board_us - from_us
         self._on_jump()
         shown: list[SampleFrame] = []

@@ -105,6 +105,33 @@ def test_a_recording_is_played_and_sought_beyond_a_time_at_which_its_clock_was_s
         playback.stop()
 
 
+class SetBack:
+    """A minute at 100 Hz; the clock of the frames is set back by 20 s after 40 s, that of the recording is not."""
+
+    length_us = 59_990_000
+
+    def frames(self, from_us: int = 0) -> Iterator[SampleFrame]:
+        empty = np.zeros(1, np.uint16)
+        for number in range(from_us // 10_000, 6000):
+            board_us = 10_000 * number - (20_000_000 if number >= 4000 else 0)
+            yield SampleFrame(number, 30_000_000 + board_us, 0, Scheme.RASTER, 32, 32, 0, empty, empty)
+
+
+def test_a_time_before_the_clock_was_set_is_sought_after_one_behind_that() -> None:
+    """Frames were taken for later by as much as the clock was set: one was shown, and then none for so long."""
+    numbers: list[int] = []
+    playback = Playback(SetBack(), lambda frames: numbers.extend(one.sequence for one in frames), lambda: None)
+    playback.start()
+    try:
+        wait_for(lambda: bool(numbers))
+        playback.pause()
+        for time_s in (50.0, 10.0, 55.0, 30.0):
+            playback.seek(time_s)
+            wait_for(lambda time_s=time_s: numbers and numbers[-1] == round(100 * time_s))  # type: ignore[misc]
+    finally:
+        playback.stop()
+
+
 def test_a_recording_that_is_read_slower_than_it_plays_is_shown_as_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     slow_us = 4000.0
     read_us = itertools.count(step=slow_us)
