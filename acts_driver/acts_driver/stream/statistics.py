@@ -58,6 +58,8 @@ class StreamStatistics:
         self._recent: deque[tuple[int, int]] = deque(maxlen=_RECENT)
         self._reconnected = False
         self._threw_away = False
+        # By how much the clock of the arrivals was set so far: the rate is told as if it had not been.
+        self._set_by_ns = 0
         self._bin = 0
         self._bins: deque[tuple[int, int]] = deque(maxlen=_BINS + 1)
         self._in_bin = 0
@@ -120,10 +122,11 @@ class StreamStatistics:
     def host_was_set(self, step_ns: int) -> None:
         """Tell that the clock of the arrivals was set, and by how much [ns]."""
         self._measured_ns += step_ns
+        self._set_by_ns += step_ns
 
     def rate_hz(self, now_ns: int) -> float:
         """New frames per second of arrival, over the last second; takes `lock`."""
-        now = now_ns // _BIN_NS
+        now = (now_ns - self._set_by_ns) // _BIN_NS
         # The bin that is being filled is left out: with it the rate would depend on the time of the call.
         with self.lock:
             done = [*self._bins, (self._bin, self._in_bin)]
@@ -145,7 +148,7 @@ class StreamStatistics:
         return abs(difference_ns) > min(_LATE_NS, self._board_us * 500) + DRIFT_MAX * passed_ns
 
     def _count_rate(self, arrival_ns: int) -> None:
-        number = arrival_ns // _BIN_NS
+        number = (arrival_ns - self._set_by_ns) // _BIN_NS
         if number != self._bin:
             self._bins.append((self._bin, self._in_bin))
             self._bin = number

@@ -85,8 +85,9 @@ class FrameStream:
         new: list[SampleFrame] = []
         board_us: list[int] = []
         restarted = False
-        if self.has_board_clock and self._host_clock.was_set():
-            self.clock.host_was_set()
+        if self._host_clock.was_set():
+            if self.has_board_clock:
+                self.clock.host_was_set()
             statistics.host_was_set(self._host_clock.step_ns)
             # They may have been read just before that.
             arrival_ns = self._host_clock.now_ns()

@@ -49,6 +49,24 @@ def test_stamps_follow_the_systems_clock_at_once(step_ms: int) -> None:
     assert stream.statistics.restarts == 0
 
 
+@pytest.mark.parametrize("has_board_clock", [True, False])
+@pytest.mark.parametrize("step_ms", [-3_600_000, -500, 60, 3_600_000])
+def test_the_rate_is_the_same_after_the_clock_was_set(step_ms: int, has_board_clock: bool) -> None:
+    clocks = Clocks()
+    host_clock = HostClock(lambda: clocks.system_ns, clocks.read_steady)
+    stream = FrameStream(4, 4, has_board_clock=has_board_clock, host_clock=host_clock)
+    rates_hz = []
+    for k in range(4000):
+        if k == 2050:
+            clocks.system_ns += step_ms * MS
+        frame = SampleFrame(k, 7_000_000 + 1000 * k, 0, Scheme.UNIFORM, 4, 4, 0, NONE, NONE)
+        stream.accept([frame], clocks.system_ns)
+        clocks.run(MS)
+        if k >= 1200:
+            rates_hz.append(stream.statistics.rate_hz(clocks.system_ns))
+    assert set(rates_hz) == {1000.0}
+
+
 @pytest.mark.parametrize("step_ms", [-3_600_000, 60, 3_600_000])
 def test_a_clock_that_is_set_while_a_frame_is_decoded(step_ms: int) -> None:
     clocks = Clocks()
