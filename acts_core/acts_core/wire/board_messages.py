@@ -92,9 +92,9 @@ def decode_message(packet: bytes) -> BoardMessage:
     if kind == PacketType.OBJECT:
         return _decode_object(content)
     if kind in _COMMANDS:
-        raise PacketError(
-            f"packet type {kind}, a command: what the host sends comes back; is there a board at this port, or what "
-            "echoes, such as a modem or a loop?"
+        raise version_mismatch(
+            f"packet type {kind}, a command: what the host sends comes back, as from a modem or a loop instead of a "
+            "board, or the board sends what no board of this release does"
         )
     raise version_mismatch(f"packet type {kind}, which no board of this release sends")
 
