@@ -1,12 +1,15 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Connections that are too many, or that break off: bounded, and told in one line now and then. Knows no ROS."""
+"""Connections: how many there are and what waits for each is bounded; those that break off are told in one line now and
+then. Knows no ROS.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import logging
+import socket
 import time
 from typing import Any
 
@@ -17,6 +20,8 @@ from acts_core.runtime import LogCallback
 MAX_CONNECTIONS = 256
 """Open at once, pages and downloads among them; each takes one of the process's file descriptors."""
 
+# Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
+_SEND_BUFFER_BYTES = 65536
 _TOLD_EVERY_S = 10.0
 _LONGEST = 200
 
@@ -88,3 +93,9 @@ class FailureLog(logging.Handler):
         more = f"; {self._untold} more were not told" if self._untold else ""
         self._told_s, self._untold = now_s, 0
         self._log("warning", f"a connection to the page failed: {what}{why}{more}")
+
+
+def bound_send_buffer(connection: ServerConnection) -> None:
+    """Let the system keep little of what is sent: so it is soon seen what the client takes."""
+    own = connection.transport.get_extra_info("socket")
+    own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)

@@ -27,7 +27,7 @@ from acts_core.runtime import LogCallback
 from acts_view.skin.snapshot import Frame, Sample, SkinShape
 from acts_view.web.access import is_local_host, new_token, refusal
 from acts_view.web.codec import encode
-from acts_view.web.connections import FailureLog, LimitedConnection
+from acts_view.web.connections import FailureLog, LimitedConnection, bound_send_buffer
 from acts_view.web.display import Display, Reader
 from acts_view.web.page_files import read_page, version_of
 from acts_view.web.requests import STOPS, RequestHandler, read_request
@@ -39,8 +39,6 @@ READ_ONLY = "this page only shows; started with `acts view --control` it can als
 MAX_CLIENTS = 32
 MAX_DOWNLOADS = 4
 _PIECE_BYTES = 1 << 16
-# Enough for two pictures of 64 x 64: what waits in the system's buffers is old when it arrives.
-_SEND_BUFFER_BYTES = 65536
 _LARGEST_REQUEST_BYTES = 1024
 # What a slow line still holds of a file may take this long to arrive.
 _LAST_PIECES_S = 60.0
@@ -184,7 +182,8 @@ class ViewServer:
         period_s : float
             From one call to the next [s]; calls that are late are not made up for.
         call : callable
-            Must not take long; shows without waking a thread. It may return by how much later the next call is due [s].
+            Must not take long. What it shows reaches the clients without waking another thread. It may return by how
+            much later the next call is due [s].
         """
 
         def again(due_s: float) -> None:
@@ -287,7 +286,7 @@ class ViewServer:
         """Send a file in pieces, as the client takes them; it is whole where the socket is closed normally."""
         file = self._file(path)
         assert file is not None
-        _bound_send_buffer(connection)
+        bound_send_buffer(connection)
         # Answers to both wait behind what a slow line holds, which may be megabytes, as of a tunnel.
         connection.ping_timeout, connection.close_timeout = None, _LAST_PIECES_S
         self._downloads += 1
@@ -307,7 +306,7 @@ class ViewServer:
             self._downloads -= 1
 
     async def _stream(self, connection: ServerConnection) -> None:
-        _bound_send_buffer(connection)
+        bound_send_buffer(connection)
         client = _Client(connection, self._display.reader())
         self._clients.add(client)
         self._on_clients(len(self._clients))
@@ -387,12 +386,6 @@ class ViewServer:
             self._log("warning", f"a page took nothing for {self._send_limit_s:g} s and was dropped; it will reconnect")
             # No handshake: it would wait behind what the client does not take.
             transport.abort()
-
-
-def _bound_send_buffer(connection: ServerConnection) -> None:
-    """Let the system keep little of what is sent: so it is soon seen what the client takes."""
-    own = connection.transport.get_extra_info("socket")
-    own.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _SEND_BUFFER_BYTES)
 
 
 def _one(request: Request, name: str) -> str | None:
