@@ -16,7 +16,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from spinning import Spinning
-from test_view_codec import decode
+from view_messages import decode
 from waiting import text_of, wait_for
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin

@@ -16,7 +16,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from rclpy.serialization import serialize_message
-from test_view_codec import decode
+from view_messages import decode
 from view_recorded import COL, DEADLINE_S, ROW, Counted, Played, Shown, write_bag, write_frames
 from waiting import wait_for
 

@@ -16,7 +16,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from test_view_codec import decode
+from view_messages import decode
 from view_recorded import DEADLINE_S, Counted, Shown, write_bag
 from waiting import wait_for
 

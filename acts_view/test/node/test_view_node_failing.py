@@ -14,7 +14,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from spinning import Spinning
-from test_view_codec import decode
+from view_messages import decode
 from websockets.sync.client import connect
 from websockets.typing import Origin
 

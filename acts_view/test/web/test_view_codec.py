@@ -16,28 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
+from view_messages import decode
 
 from acts_core.errors import ArrayError
 from acts_core.skin import LAYOUTS, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.snapshot import Frame, SkinShape, describe_skin, encode_frame
 from acts_view.web.codec import DTYPES, encode
-
-
-def decode(message: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """As `acts_view.web.codec` describes the format, and as the page does it: every array lies at a multiple of 4."""
-    length = int.from_bytes(message[:4], "little")
-    header = json.loads(message[4 : 4 + length])
-    at = 4 + length
-    read = {}
-    for name, kind, shape in header.pop("arrays"):
-        assert at % 4 == 0
-        count = math.prod(shape)
-        read[name] = np.frombuffer(message, np.dtype(kind).newbyteorder("<"), count, at).reshape(shape)
-        at += -(-read[name].nbytes // 4) * 4
-    assert at == len(message)
-    return header, read
-
 
 ANY_JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text(),

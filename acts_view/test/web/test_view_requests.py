@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_view_codec import decode
+from view_messages import decode
 from websockets.sync.client import connect
 from websockets.typing import Origin
 

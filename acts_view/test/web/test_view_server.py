@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_view_codec import decode
+from view_messages import decode
 from view_slow_line import SlowLine, over_a_slow_line
 from waiting import wait_for
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
