@@ -49,7 +49,7 @@ class FramePipeline:
     recovery : Recovery
         With the image of the newest frame.
     every : SampleFrame or None
-        The newest, with all samples, and counts less the baseline; the next one overwrites them.
+        The newest, with all samples of live taxels, and counts less the baseline; the next one overwrites them.
     frame : SampleFrame or None
         The same with each taxel once.
     contact : Contact
@@ -173,6 +173,9 @@ class FramePipeline:
         if every.repeats:
             # Recovery takes the last sample of each taxel, but `every` is for those that take all.
             self._samples.of(every.indices, every.counts, may_repeat=True)
+        if self.recovery.dead is not None:
+            live_indices, live_counts = self.recovery.dead.left_out(every.indices, every.counts)
+            every = every._replace(indices=live_indices, counts=live_counts)
         once = every.once()
         self.contact = self.recovery.step(once.indices, once.counts, stamp_ns * 1e-9, once.duration_us * 1e-6)
         # Not before: only now it is known that they are of this matrix.

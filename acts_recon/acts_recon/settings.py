@@ -16,7 +16,7 @@ from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse
 from acts_recon.classifiers import AUTO, CLASSIFIERS, ObjectRecogniser, classifier_named
 from acts_recon.contacts import BlobConfig
 from acts_recon.fusion import FusionConfig
-from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, NOISE_COUNTS
+from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, NOISE_COUNTS, DeadTaxelsConfig
 from acts_recon.impacts import ImpactConfig, ImpactDetector
 from acts_recon.methods import METHODS, Recovery, SkinSetup
 from acts_recon.objects import load_object_library
@@ -31,7 +31,9 @@ _RESPONSE = ForceResponse()
 
 
 @dataclass(frozen=True)
-class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactConfig, SpectraConfig, OutlinesConfig):
+class ReconstructionConfig(
+    RealtimeConfig, SlipConfig, SharpnessConfig, ImpactConfig, SpectraConfig, OutlinesConfig, DeadTaxelsConfig
+):
     """The node's own parameters; those of methods and classifiers come with `ReconstructionSettings`."""
 
     rows: int = setting(_ARRAY.rows, "rows of the array", minimum=1, maximum=MAX_SIDE)
@@ -177,6 +179,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
         RealtimeConfig.__post_init__(self)
         SharpnessConfig.__post_init__(self)
         layout_path(self.layout)  # refuses what is neither a name nor a path
+        self.dead(self.rows, self.cols)  # refuses what are no taxels
         # Images that are farther apart than `LONGEST_PAUSE_S` are not compared.
         if 0.0 < self.regions_slip_rate_hz < 1.0 / LONGEST_PAUSE_S:
             raise SettingsError(
@@ -239,6 +242,7 @@ class ReconstructionConfig(RealtimeConfig, SlipConfig, SharpnessConfig, ImpactCo
             self._response(),
             self.touch_counts,
             self.noise_counts,
+            self.dead(self.rows, self.cols),
         )
 
     def recovery(self) -> Recovery:

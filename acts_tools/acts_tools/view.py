@@ -10,7 +10,7 @@ from pathlib import Path
 
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
-from acts_core.skin import LAYOUTS
+from acts_core.skin import LAYOUTS, TAXELS_RULE
 from acts_core.stop_signals import StopSignals
 from acts_tools.arguments import refuse_unused
 
@@ -49,6 +49,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help=f"layout of a recording or board: {', '.join(LAYOUTS)}, or a file (default: square)",
     )
     parser.add_argument(
+        "--dead-taxels",
+        default="",
+        metavar="TAXELS",
+        help=f"broken taxels of a recording or board, in quotes: {TAXELS_RULE} (default: none)",
+    )
+    parser.add_argument(
         "--size", type=int, nargs=2, default=[32, 32], metavar=("ROWS", "COLS"), help="size of a board (default: 32 32)"
     )
     parser.add_argument(
@@ -77,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.bag or arguments.npz:
         refuse_unused(arguments, "on a recording", "control")
     elif not arguments.board:
-        refuse_unused(arguments, "without --bag, --npz or --board: nodes tell theirs", "layout")
+        refuse_unused(arguments, "without --bag, --npz or --board: nodes tell theirs", "layout", "dead_taxels")
     if arguments.board and len(arguments.skins) > 1:
         raise SettingsError(f"a board is one skin; {', '.join(arguments.skins)} are {len(arguments.skins)}")
     signals = StopSignals()
@@ -108,6 +114,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
     # Refused as by the node, and before a long recording is read.
     settings = ViewSettings(host=arguments.host, port=arguments.port)
     source: LocalSource
+    shown = {"dead_taxels": arguments.dead_taxels, "with_outlines": arguments.outlines}
     if arguments.board:
         rows, cols = arguments.size
         driver = DriverSettings(
@@ -117,11 +124,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
         # That of the root is empty, before the slash of its topics.
         name = "" if given == "/" else full_name(given, "namespace", has_names_below=True)
         record_dir = settings.record_folder if arguments.control else None
-        source = BoardSource(
-            name, driver, arguments.layout, log, with_outlines=arguments.outlines, record_dir=record_dir
-        )
+        source = BoardSource(name, driver, arguments.layout, log, **shown, record_dir=record_dir)
     else:
-        source, name = open_recorded(
-            arguments.bag or arguments.npz, arguments.skins, arguments.layout, with_outlines=arguments.outlines
-        )
+        source, name = open_recorded(arguments.bag or arguments.npz, arguments.skins, arguments.layout, **shown)
     return show(source, name, host=settings.host, port=settings.port, signals=signals)

@@ -1,13 +1,14 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What all methods of recovery use: borders between patches, noise of taxels, the baseline, and checks of a frame.
+"""What all methods of recovery use: borders between patches, dead taxels, noise, the baseline, and checks of a frame.
 
 In come frames and layouts; out come tables, checked samples, and images as bytes of messages.
 """
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of
+from acts_recon.images.dead_taxels import DeadTaxels, DeadTaxelsConfig
 from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_recovered, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
@@ -29,6 +30,8 @@ __all__ = [
     "SMALLEST_DIVISOR",
     "BaselineSubtraction",
     "Borders",
+    "DeadTaxels",
+    "DeadTaxelsConfig",
     "PlacedSamples",
     "borders_of",
     "force_of",

@@ -34,6 +34,8 @@ class SkinSetup:
         A taxel above it is pressed.
     noise_counts : float
         Standard deviation of a reading about the truth [counts]; 0: not known.
+    dead_taxels : np.ndarray [shape=(matrix rows, matrix cols), dtype=bool] or None
+        Which taxels of the matrix are broken: their samples are left out. None: none.
     """
 
     geometry: ArrayGeometry
@@ -41,6 +43,7 @@ class SkinSetup:
     response: Response = field(default_factory=ForceResponse)
     touch_counts: int = TOUCH_COUNTS
     noise_counts: float = FusionConfig().noise_counts
+    dead_taxels: NDArray[np.bool_] | None = None
 
     @property
     def assumed_noise_counts(self) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.contacts import Contact, ContactFinder
-from acts_recon.images import borders_of
+from acts_recon.images import DeadTaxels, borders_of
 from acts_recon.methods.method import Method, SkinSetup
 
 
@@ -32,6 +32,8 @@ class Recovery:
         Likewise.
     response : Response
         From counts to newtons.
+    dead : DeadTaxels or None
+        Those of the skin: `image` and `sigma` hold what the taxels around say of them.
     image, sigma, age_s, measured
         See `Method`.
     """
@@ -42,6 +44,7 @@ class Recovery:
         self.geometry = skin.geometry
         self.borders = borders_of(skin.geometry.rows, skin.geometry.cols, skin.layout)
         self.response = skin.response
+        self.dead = None if skin.dead_taxels is None else DeadTaxels(skin.dead_taxels, skin.geometry, skin.layout)
         self.image = method.image
         self.sigma = method.sigma
         self.age_s = method.age_s
@@ -56,8 +59,10 @@ class Recovery:
         self.method.reset()
 
     def step(self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], end_s: float, duration_s: float) -> Contact:
-        """Recover one frame and find the contact in it; parameters and errors as of `Method.step`."""
+        """Recover one frame, of live taxels alone, and find the contact in it; see `Method.step`."""
         self.method.step(indices, counts, end_s, duration_s)
+        if self.dead is not None:
+            self.dead.fill(self.image, self.sigma)
         return self._finder.find(*self._flat)
 
     def set_noise(self, noise_counts: NDArray[np.float32], valid: NDArray[np.bool_]) -> None:

@@ -321,6 +321,7 @@ class ReconstructionNode(Node):
             "not_published": counts.untold,
             "not_used": self._unused,
             "baseline": "subtracted" if self._pipeline.subtracts else "none",
+            "dead_taxels": self._settings.dead_taxels or "none",
             "frame_us.median": 1e6 * median(durations_s) if durations_s else 0.0,
         }
         return level, words, values

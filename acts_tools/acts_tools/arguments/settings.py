@@ -35,7 +35,7 @@ def add_settings(parser: argparse.ArgumentParser, settings_class: type, *names: 
             type=type(default),
             default=default,
             metavar="X",
-            help=f"{info.description} (default: %(default)s)",
+            help=f"{info.description} (default: {'none' if default == '' else '%(default)s'})",
         )
 
 

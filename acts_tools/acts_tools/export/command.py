@@ -62,6 +62,12 @@ def add_parser(subparsers: Any) -> None:
     )
     parser.add_argument("--layout", default=_LAYOUT, help=f"layout of the skin, as in acts view (default: {_LAYOUT})")
     parser.add_argument(
+        "--dead-taxels",
+        default="",
+        metavar="TAXELS",
+        help="broken taxels, in quotes, as in acts view (default: none)",
+    )
+    parser.add_argument(
         "--rate",
         type=float,
         metavar="HZ",
@@ -93,7 +99,14 @@ def run(arguments: argparse.Namespace) -> int:
     from acts_tools.export.writing import naming, write_bags
 
     # Learning has no use for a NaN: it would spread into the statistics of the dataset.
-    choice = Choice(arguments.skin, arguments.joints, arguments.layout, rate_hz, numbers_only=kind == "lerobot")
+    choice = Choice(
+        arguments.skin,
+        arguments.joints,
+        arguments.layout,
+        arguments.dead_taxels,
+        rate_hz,
+        numbers_only=kind == "lerobot",
+    )
     with ExitStack() as made:
         made.enter_context(_ended_as_by_ctrl_c())
         with naming(output):

@@ -23,6 +23,7 @@ from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros.messages import baseline_of, frame_of, ns_of, stamp_ns_of
 from acts_tools.bags.messages import image_counts, messages, samples_with_baseline
+from acts_tools.export.topics import Choice
 from acts_tools.export.tracks import Track, Values, contact_found, contacts_found
 
 # Cosine between images of the same touches; they may be recovered by other methods, or with another baseline.
@@ -92,7 +93,7 @@ def recorded_frames(bag: Any, path: Path, topic: str) -> Iterator[Seen]:
 
 
 def recovered_frames(
-    bag: Any, path: Path, topic: str, beside: str | None, layout: str, refused: Refused
+    bag: Any, path: Path, topic: str, beside: str | None, choice: Choice, refused: Refused
 ) -> Iterator[Seen]:
     """Images recovered from samples, with their contacts, by the defaults of the node reconstruction.
 
@@ -104,23 +105,23 @@ def recovered_frames(
         Path of the bag, for errors.
     topic, beside : str
         Topics of the samples and of the baseline; None for no baseline.
-    layout : str
-        Name or file, as in `acts_core.skin.layout`.
+    choice : Choice
+        With the layout and the dead taxels of the skin.
     refused : Refused
         Gets the frames that are left out: of another array than the first, or with taxels that it does not have.
 
     Raises
     ------
     RecordingError
-        The array does not fit the layout, the baseline does not fit the array, a message is damaged, or all frames
-        are left out.
+        The array does not fit the layout or the dead taxels, the baseline does not fit the array, a message is
+        damaged, or all frames are left out.
     """
     recovery: FrameRecovery | None = None
     made = 0
     for where, samples, baseline in samples_with_baseline(bag, path, topic, beside):
         try:
             if recovery is None:
-                recovery = FrameRecovery(_settings(samples, layout))
+                recovery = FrameRecovery(_settings(samples, choice))
             if baseline is not None:
                 _subtract(recovery, baseline, f"{beside} in '{path}'")
         except RecordingError:
@@ -201,8 +202,10 @@ class _Likeness:
         return self._have_same_shape and self._product > _LEAST_LIKENESS * math.sqrt(self._recovered * self._recorded)
 
 
-def _settings(samples: TactileSamples, layout: str) -> ReconstructionConfig:
-    return ReconstructionSettings(rows=samples.rows, cols=samples.cols, layout=layout)
+def _settings(samples: TactileSamples, choice: Choice) -> ReconstructionConfig:
+    return ReconstructionSettings(
+        rows=samples.rows, cols=samples.cols, layout=choice.layout, dead_taxels=choice.dead_taxels
+    )
 
 
 def _subtract(recovery: FrameRecovery, message: Baseline, where: str) -> None:

@@ -218,11 +218,11 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             why = "; ".join(joints.notes) or "no message names joints and says something of them"
             raise RecordingError(f"'{path}' has no joint states to export on {topics.joints}: {why}")
         refused = Refused()
-        found = _contacts_of(bag, path, topics, choice.layout, refused)
+        found = _contacts_of(bag, path, topics, choice, refused)
         if topics.images:
             frames = recorded_frames(bag, path, topics.images)
         else:
-            frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice.layout, refused)
+            frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice, refused)
             if found.note:
                 frames = (replace(seen, contacts=None) for seen in frames)
         left_out = {**found.left_out, topics.joints: joints.track.backward}
@@ -262,7 +262,7 @@ class _FoundContacts:
     note: str
 
 
-def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout_name: str, refused: Refused) -> _FoundContacts:
+def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, choice: Choice, refused: Refused) -> _FoundContacts:
     """The recorded contacts; beside recorded images, those that lack are found in the samples."""
     contact = contact_track(bag, path, topics.contact)
     contacts = contacts_track(bag, path, topics.contacts)
@@ -271,16 +271,16 @@ def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, layout_name: str, r
     uses_layout = not topics.images or bool(topics.samples and not are_recorded)
     other_taxels = ""
     if uses_layout and not contacts.stamps_ns:
-        other_taxels = _other_taxels(contact, topics.contact, layout_name)
+        other_taxels = _other_taxels(contact, topics.contact, choice.layout)
     if not (topics.images and uses_layout):
         return _FoundContacts(contact, contacts, left_out, uses_layout, other_taxels)
     found = contacts_in(
-        recovered_frames(bag, path, topics.samples, topics.baseline, layout_name, refused),
+        recovered_frames(bag, path, topics.samples, topics.baseline, choice, refused),
         recorded_frames(bag, path, topics.images),
     )
     if found is None:
         note = (
-            f"contacts were not recorded, and are left out: with the layout {layout_name} {topics.samples} does not "
+            f"contacts were not recorded, and are left out: with the layout {choice.layout} {topics.samples} does not "
             f"give the images of {topics.images}; export it with --layout NAME, as the driver had it"
         )
         return _FoundContacts(contact, contacts, left_out, uses_layout, note)

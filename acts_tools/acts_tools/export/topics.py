@@ -31,6 +31,8 @@ class Choice:
         Topic of joint states; empty for the only one in the bag, if there is one, `NO_JOINTS` for none.
     layout : str
         Layout of the skin, for recovery from samples.
+    dead_taxels : str
+        Its broken taxels, as the parameter of the reconstruction; likewise.
     rate_hz : float
         Rows per second; 0: one row per frame.
     numbers_only : bool
@@ -40,6 +42,7 @@ class Choice:
     skin: str = ""
     joints: str = ""
     layout: str = "square"
+    dead_taxels: str = ""
     rate_hz: float = 0.0
     numbers_only: bool = False
 

@@ -50,8 +50,8 @@ def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path:
     Raises
     ------
     RecordingError
-        A bag cannot be read, has nothing of the choice, or a layout is chosen that nothing is recovered with; or it
-        cannot be written.
+        A bag cannot be read, has nothing of the choice, or a layout or dead taxels are chosen that nothing is
+        recovered with; or it cannot be written.
     OSError
         The user cannot be told, as where the reader of standard output has ended.
     """
@@ -61,9 +61,9 @@ def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path:
     for bag in bags:
         with open_recording(bag, choice) as recording:
             uses_layout = uses_layout or recording.uses_layout
-            if bag is bags[-1] and choice.layout != Choice.layout and not uses_layout:
+            if bag is bags[-1] and not uses_layout and (given := _given_for_recovery(choice)):
                 raise RecordingError(
-                    f"--layout {choice.layout} is of no use: it is for what is recovered from samples, and "
+                    f"{given} is of no use: it is for what is recovered from samples, and "
                     f"images and contacts of {recording.skin or '/'} are exported as they were recorded"
                 )
             with naming(output):
@@ -86,3 +86,10 @@ def _tell(bag: Path, recording: Recording, n_rows: int) -> None:
     print(f"{bag}: {counted(n_rows, 'row')} of {recording.skin or '/'}{joints}")
     for sentence in recording.notes():
         print(f"{bag}: {sentence}", file=sys.stderr)
+
+
+def _given_for_recovery(choice: Choice) -> str:
+    """An option that only recovery from samples uses, as it was given; empty without any."""
+    if choice.layout != Choice.layout:
+        return f"--layout {choice.layout}"
+    return f"--dead-taxels '{choice.dead_taxels}'" if choice.dead_taxels else ""

@@ -11,10 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.skin import taxels_in_words
 from acts_core.words import counted
 from acts_driver.selftest import Finding, Level, Thresholds, Timing, Touched, Untouched
 
 _WIDTH = 16
+# Faults by which the readings of taxels say nothing of what presses them. Shorted lines tell that one of both is
+# pressed, and what is noisy may have been touched.
+_DEAD = ("open rows", "open columns", "stuck taxels", "dead taxels")
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +49,18 @@ class SelfTest:
         faults, warnings = counted(counts[Level.FAIL], "fault"), counted(counts[Level.WARN], "warning")
         return f"{self.level.name}: {faults}, {warnings}, {counts[Level.PASS]} good"
 
+    @property
+    def dead_taxels(self) -> str:
+        """What the parameter of that name of the reconstruction is to be until they are mended; empty: none."""
+        dead = np.zeros((self.rows, self.cols), dtype=np.bool_)
+        for finding in self.findings:
+            if finding.name in _DEAD and finding.level is Level.FAIL:
+                dead[list(finding.rows), :] = True
+                dead[:, list(finding.cols)] = True
+                for taxel in finding.taxels:
+                    dead[taxel] = True
+        return taxels_in_words(dead)
+
     def text(self) -> str:
         """The report for a person."""
         lines = [f"{self.board}: {self.rows} x {self.cols} taxels, {self.scheme}", ""]
@@ -52,7 +68,10 @@ class SelfTest:
             lines.append(f"{finding.level.name}  {finding.name:<{_WIDTH}} {finding.text}")
             if finding.advice:
                 lines.append(f"{'':{_WIDTH + 6}} -> {finding.advice}")
-        return "\n".join([*lines, "", self.verdict])
+        lines += ["", self.verdict]
+        if self.dead_taxels:
+            lines.append(f"until they are mended, let reconstruction estimate them: dead_taxels: '{self.dead_taxels}'")
+        return "\n".join(lines)
 
     def as_json(self) -> dict[str, Any]:
         """The report for a program; maps are lists of rows, with null for unknown values."""
@@ -65,6 +84,7 @@ class SelfTest:
             "rows": self.rows,
             "cols": self.cols,
             "scheme": self.scheme,
+            "dead_taxels": self.dead_taxels,
             "findings": [{**asdict(finding), "level": finding.level.name} for finding in self.findings],
             "timing": {
                 "frames": timing.frames,

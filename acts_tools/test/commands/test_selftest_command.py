@@ -43,6 +43,7 @@ def test_a_healthy_board_passes(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert {"open rows", "shorted columns", "multiplexer", "dead taxels", "noise", "coverage"} <= levels.keys()
     assert code == (1 if "FAIL" in levels.values() else 0)
     assert report["scheme"] == "raster"
+    assert report["dead_taxels"] == ""
     assert report["timing"]["taxel_us"] == pytest.approx(17.6, rel=0.05)
     assert report["thresholds"]["high_counts"] == 60
     height, width, _ = matplotlib.image.imread(tmp_path / "b/test.png").shape
@@ -67,7 +68,10 @@ def test_every_broken_wire_is_found_and_named(tmp_path: Path, capsys: pytest.Cap
     assert found["shorted columns"]["cols"] == [20, 27]
     assert found["dead taxels"]["taxels"] == [[10, 12]]
     assert found["stuck taxels"]["taxels"] == [[4, 4]]
-    assert "FAIL  open rows        row 5 never responded" in capsys.readouterr().out
+    assert report["dead_taxels"] == "row=5 col=7 4,4 10,12"
+    said = capsys.readouterr().out
+    assert "FAIL  open rows        row 5 never responded" in said
+    assert said.splitlines()[-2].endswith("let reconstruction estimate them: dead_taxels: 'row=5 col=7 4,4 10,12'")
 
 
 def test_a_board_that_takes_no_commands_is_tested_with_what_it_sends(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from pressed_frames import press
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
@@ -102,6 +103,27 @@ def test_reports_name_a_method_by_one_of_its_names(tmp_path: Path, capsys: pytes
         main(["evaluate", "recovery", "--presses", "1", "--method", "magic"])
     refusal = capsys.readouterr().err
     assert all(name in refusal for name in ("acts", "paper", "fusion", "per_frame"))
+
+
+def test_broken_taxels_read_nothing_and_those_that_are_told_are_estimated(tmp_path: Path) -> None:
+    frames = np.repeat(press(10.3, 12.2, 2.0, 700)[None], 200, axis=0)
+    sound, broken, told = (
+        command(tmp_path, frames, *words)[0]
+        for words in ([], ["--broken-taxels", "row=10"], ["--broken-taxels", "row=10", "--dead-taxels", "row=10"])
+    )
+    assert sound["relative_error"] < 0.01
+    assert broken["relative_error"] > 0.3
+    assert told["relative_error"] < 0.1
+    assert told["cop_error_taxels"]["mean"] < 0.03 < broken["cop_error_taxels"]["mean"]
+
+
+@pytest.mark.parametrize("option", ["--broken-taxels", "--dead-taxels"])
+def test_taxels_outside_of_the_array_are_refused(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.savez(tmp_path / "frames.npz", frames=still(5, PRESSED), rate_hz=1000.0)
+    assert main(["evaluate", "recovery", "--frames", str(tmp_path / "frames.npz"), option, "col=32"]) == 1
+    assert f"{option[2:].replace('-', '_')}: 'col=32' is outside of an array of 32 x 32" in capsys.readouterr().err
 
 
 def test_options_that_are_given_again_add_to_one_another(tmp_path: Path) -> None:

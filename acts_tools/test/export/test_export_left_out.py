@@ -100,6 +100,22 @@ def test_a_layout_that_is_of_no_use_is_refused(tmp_path: Path, capsys: pytest.Ca
     assert main(["export", str(others), *words[2:5], str(tmp_path / "more"), "--layout", "arm"]) == 0
 
 
+def test_dead_taxels_are_estimated_in_what_is_recovered(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    broken = pressed(2)
+    broken[10] = 0
+    path = write_bag(tmp_path / "b", *(("/plate/samples", samples(20 * n, broken)) for n in range(3)))
+    assert [row.image[10, 10] for row in rows_of(path)[0]] == [0, 0, 0]
+    for row in rows_of(path, dead_taxels="row=10")[0]:
+        np.testing.assert_array_equal(np.delete(row.image, 10, axis=0), np.delete(broken, 10, axis=0))
+        assert row.image[10, 10] == pytest.approx(pressed(2)[10, 10], rel=0.1)
+    with pytest.raises(RecordingError, match="dead_taxels: 'row=99' is outside of an array"):
+        rows_of(path, dead_taxels="row=99")
+    whole = recorded(tmp_path / "c", contacts_too=True)
+    words = ["export", str(whole), "--to", "csv", "-o", str(tmp_path / "out"), "--dead-taxels", "row=10 3,4"]
+    assert main(words) == 1
+    assert "--dead-taxels 'row=10 3,4' is of no use: it is for what is recovered" in capsys.readouterr().err
+
+
 def test_a_layout_that_there_is_not_is_refused(tmp_path: Path) -> None:
     path = recorded(tmp_path / "b", contacts_too=True)
     with pytest.raises(ArrayError, match="layout 'sqare': allowed is one of"):

@@ -89,6 +89,8 @@ class RecordedSource:
     recording : SeekableRecording
     layout : str
         As `acts_core.skin.layouts.layout` takes it.
+    dead_taxels : str
+        As the parameter of the reconstruction.
     with_outlines : bool
         See `LocalSkin`.
     read_baselines : callable, optional
@@ -99,7 +101,7 @@ class RecordedSource:
     RecordingError
         It cannot be read.
     ArrayError, SettingsError
-        The layout does not fit.
+        The layout does not fit, or `dead_taxels` names no taxels.
     """
 
     def __init__(
@@ -108,11 +110,12 @@ class RecordedSource:
         recording: SeekableRecording,
         layout: str = "square",
         *,
+        dead_taxels: str = "",
         with_outlines: bool = False,
         read_baselines: Callable[[int, int], tuple[Sequence[Baseline], str]] = lambda _rows, _cols: ((), ""),
     ) -> None:
         first = next(recording.frames())
-        settings = ReconstructionSettings(rows=first.rows, cols=first.cols, layout=layout)
+        settings = ReconstructionSettings(rows=first.rows, cols=first.cols, layout=layout, dead_taxels=dead_taxels)
         self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._name = name
         self._zero_us = first.board_us
@@ -204,6 +207,8 @@ class BoardSource:
     driver : DriverSettings
     layout : str
         As `acts_core.skin.layouts.layout` takes it.
+    dead_taxels : str
+        As the parameter of the reconstruction.
     log : callable
         Takes a level and a sentence.
     with_outlines : bool
@@ -216,7 +221,7 @@ class BoardSource:
     PortError
         There is no such port.
     ArrayError, SettingsError
-        The layout does not fit.
+        The layout does not fit, or `dead_taxels` names no taxels.
     """
 
     def __init__(
@@ -226,6 +231,7 @@ class BoardSource:
         layout: str,
         log: Callable[[str, str], None],
         *,
+        dead_taxels: str = "",
         with_outlines: bool = False,
         record_dir: Path | None = None,
     ) -> None:
@@ -233,7 +239,7 @@ class BoardSource:
         self._source = driver.make_source()
         self._source.open()
         # Now, since frames come as soon as the port is read.
-        settings = ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout)
+        settings = ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout, dead_taxels=dead_taxels)
         self.skin = LocalSkin(settings, with_outlines=with_outlines)
         self._tracker = BaselineTracker(driver.rows, driver.cols, driver.baseline_config())
         self._tracker.arrange(layout_of(layout, driver.rows, driver.cols))
@@ -338,7 +344,7 @@ class BoardSource:
 
 
 def open_recorded(
-    path: Path, namespaces: Sequence[str], layout: str, *, with_outlines: bool = False
+    path: Path, namespaces: Sequence[str], layout: str, *, dead_taxels: str = "", with_outlines: bool = False
 ) -> tuple[RecordedSource, str]:
     """A recording to show, and the name of its skin.
 
@@ -372,7 +378,9 @@ def open_recorded(
 
         return read_baselines(path, found_topic, rows, cols)
 
-    source = RecordedSource(path.name, recording, layout, with_outlines=with_outlines, read_baselines=read)
+    source = RecordedSource(
+        path.name, recording, layout, dead_taxels=dead_taxels, with_outlines=with_outlines, read_baselines=read
+    )
     return source, found or f"/{path.stem}"
 
 

@@ -20,6 +20,7 @@ from view_messages import decode
 from view_recorded import COL, DEADLINE_S, ROW, Counted, Played, Shown, write_bag, write_frames
 from waiting import wait_for
 
+from acts_core.errors import SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_driver.replay import ReplayOptions, open_recording
 from acts_driver.settings import DriverSettings
@@ -264,6 +265,20 @@ def test_touch_is_recovered_as_by_the_node(tmp_path: Path) -> None:
     (outline,) = frame.outlines
     np.testing.assert_allclose(outline.mean(axis=0), frame.contacts[0, :2], atol=0.003)
     assert skin.newest() is None
+
+
+def test_dead_taxels_are_estimated(tmp_path: Path) -> None:
+    source, _ = open_recorded(write_frames(tmp_path / "press.npz"), [], "square", dead_taxels=f"{ROW},{COL}")
+    source.skin.take([(one, 1000 * one.board_us) for one in itertools.islice(source.recording.frames(), 60)], None)
+    taken = source.skin.newest()
+    assert taken is not None
+    frame, _ = taken
+    assert frame.image is not None
+    assert frame.age_s is not None
+    assert frame.image[ROW, COL] > 0
+    assert np.argwhere(np.isinf(frame.age_s)).tolist() == [[ROW, COL]]
+    with pytest.raises(SettingsError, match="dead_taxels: 'row=32' is outside of an array of 32 x 32"):
+        open_recorded(tmp_path / "press.npz", [], "square", dead_taxels="row=32")
 
 
 def test_an_error_in_a_recording_stays_one_where_frames_were_left_out_before(

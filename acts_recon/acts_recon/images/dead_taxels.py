@@ -1,0 +1,187 @@
+# Copyright 2026 ACTS contributors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Dead taxels: broken ones, of which the readings say nothing.
+
+Their samples are left out, and what presses there is estimated from the live taxels around: kriging, as Gaussian
+process regression is called in geostatistics (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
+eqs. 2.23 and 2.24). Pressure at the distance of d taxels is correlated by ``exp(-d^2 / (2 LENGTH_TAXELS^2))``, which
+is about how far a foam spreads it. With the correlations ``K`` between live taxels, and ``k`` between them and a dead
+one, the estimate is ``w . counts`` with ``w = (K + NOISE_SHARE I)^-1 k``. What these leave unknown is the share
+``1 - w . k`` of the variance; the largest of the counts around stands for the standard deviation of pressure.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.errors import ArrayError, SettingsError
+from acts_core.kernels import kernel
+from acts_core.settings import setting, validate
+from acts_core.skin import TAXELS_RULE, Layout, taxels_named
+from acts_recon.images.borders import borders_of
+from acts_recon.images.frame_check import require_samples
+
+LENGTH_TAXELS = 1.3
+"""At this distance pressures are correlated by exp(-1/2)."""
+
+NOISE_SHARE = 0.03
+"""Variance of what correlations do not explain, over that of pressure: keeps weights small."""
+
+_REACH = 3
+"""Live taxels farther away, in rows or columns, are not used: their weights are next to 0."""
+
+_UNKNOWN = np.zeros(0, dtype=np.float32)
+"""In place of standard deviations that are not known."""
+
+
+@dataclass(frozen=True)
+class DeadTaxelsConfig:
+    """Which taxels are dead."""
+
+    dead_taxels: str = setting(
+        "",
+        f"broken taxels of the matrix, as acts selftest names them: {TAXELS_RULE}; their readings are not used, and "
+        "what presses there is estimated from the taxels around; empty: none",
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    def dead(self, rows: int, cols: int) -> NDArray[np.bool_] | None:
+        """Which taxels of a matrix of this size are; bool (rows, cols), or None where none is.
+
+        Raises
+        ------
+        SettingsError
+            `dead_taxels` names no taxels of it, or all of them.
+        """
+        try:
+            named = taxels_named(self.dead_taxels, rows, cols)
+        except SettingsError as error:
+            raise SettingsError(f"dead_taxels: {error}") from None
+        if named.all():
+            raise SettingsError(f"dead_taxels = {self.dead_taxels!r}: these are all taxels; leave out those that work")
+        return named if named.any() else None
+
+
+class DeadTaxels:
+    """Leaves out samples of dead taxels, and estimates these in images.
+
+    Parameters
+    ----------
+    dead : np.ndarray [shape=(matrix rows, matrix cols), dtype=bool]
+        Which taxels of the matrix are.
+    geometry : ArrayGeometry
+        Of the picture; without a layout that is the matrix itself.
+    layout : Layout, optional
+        Where the taxels of the matrix lie in the picture. Only taxels of the same patch are used.
+    """
+
+    def __init__(self, dead: NDArray[np.bool_], geometry: ArrayGeometry, layout: Layout | None = None) -> None:
+        # An index outside of the matrix stays, for whoever takes the frame to refuse.
+        self._is_live = np.ones(2**16, dtype=np.bool_)
+        self._is_live[: dead.size] = ~dead.ravel()
+        in_picture = np.zeros((geometry.rows, geometry.cols), dtype=np.bool_)
+        in_picture.ravel()[np.arange(dead.size) if layout is None else layout.places] = dead.ravel()
+        rectangle_of = borders_of(geometry.rows, geometry.cols, layout).rectangle_of.reshape(in_picture.shape)
+        self._places: NDArray[np.intp] = np.flatnonzero(in_picture)
+        around = np.zeros((len(self._places), (2 * _REACH + 1) ** 2), dtype=np.intp)
+        weights = np.zeros(around.shape, dtype=np.float32)
+        unknown_share = np.ones(len(self._places), dtype=np.float32)
+        for i, (row, col) in enumerate(np.argwhere(in_picture)):
+            top, left = max(row - _REACH, 0), max(col - _REACH, 0)
+            near = np.s_[top : row + _REACH + 1, left : col + _REACH + 1]
+            live = np.argwhere(~in_picture[near] & (rectangle_of[near] == rectangle_of[row, col]))
+            live += np.array([top, left])
+            correlation = _correlation(live, np.array([[row, col]]))[:, 0]
+            between = _correlation(live, live) + NOISE_SHARE * np.eye(len(live))
+            n = len(live)
+            around[i, :n] = live[:, 0] * geometry.cols + live[:, 1]
+            weights[i, :n] = np.linalg.solve(between, correlation)
+            unknown_share[i] = 1.0 - weights[i, :n] @ correlation
+        # Where no live taxel is near, the image is left as the method has it.
+        known = (weights != 0.0).any(axis=1)
+        self._places, self._around, self._weights = self._places[known], around[known], weights[known]
+        self._unknown_share = unknown_share[known]
+        # Compile, or load from the cache, what the first frame would otherwise wait for.
+        blank = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
+        self.fill(blank, blank)
+
+    def left_out(
+        self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]
+    ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
+        """The samples of a frame without those of dead taxels.
+
+        The others are taken for evenly spaced, as those of every frame are. So with a dead row of 32 they are dated
+        wrong by up to a thirty-second of the frame's duration.
+
+        Parameters
+        ----------
+        indices, counts : np.ndarray [shape=(m,), dtype=uint16]
+            Row-major taxel indices of the matrix, and what was measured there.
+
+        Raises
+        ------
+        ArrayError
+            These are no samples, or all are of dead taxels.
+        """
+        require_samples(indices, counts)
+        kept = self._is_live[indices]
+        if kept.all():
+            return indices, counts
+        if not kept.any():
+            raise ArrayError(
+                f"only dead taxels were measured, index {indices[0]} first: needed is at least one that works; let the "
+                "board measure others, or correct dead_taxels"
+            )
+        return indices[kept], counts[kept]
+
+    def fill(self, image: NDArray[np.float32], sigma: NDArray[np.float32] | None) -> None:
+        """Write what the taxels around say into an image, and its standard deviation.
+
+        Parameters
+        ----------
+        image : np.ndarray [shape=(rows, cols), dtype=float32]
+            Counts; written, in whole counts as readings are.
+        sigma : np.ndarray [shape=(rows, cols), dtype=float32] or None
+            Standard deviation of it [counts]; written.
+        """
+        deviations = _UNKNOWN if sigma is None else sigma.ravel()
+        _fill(image.ravel(), deviations, self._places, self._around, self._weights, self._unknown_share)
+
+
+@kernel
+def _fill(
+    image: NDArray[np.float32],
+    sigma: NDArray[np.float32],
+    places: NDArray[np.intp],
+    around: NDArray[np.intp],
+    weights: NDArray[np.float32],
+    unknown_share: NDArray[np.float32],
+) -> None:
+    """See `DeadTaxels.fill`; flat arrays, `sigma` is empty where it is not known."""
+    for i in range(places.shape[0]):
+        estimate = variance = largest = 0.0
+        for j in range(around.shape[1]):
+            weight, taxel = float(weights[i, j]), around[i, j]
+            # The others fill up the row.
+            if weight != 0.0:
+                estimate += weight * image[taxel]
+                largest = max(largest, float(image[taxel]))
+                if sigma.shape[0] > 0:
+                    variance += (weight * sigma[taxel]) ** 2
+        image[places[i]] = np.float32(round(min(max(estimate, 0.0), float(COUNT_MAX))))
+        if sigma.shape[0] > 0:
+            sigma[places[i]] = np.float32(math.sqrt(variance + unknown_share[i] * largest**2))
+
+
+def _correlation(places: NDArray[np.intp], others: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Of the pressures at each of `places` (n, 2) and each of `others` (m, 2); (n, m)."""
+    squares = np.square(places[:, None] - others[None]).sum(axis=2)
+    return np.exp(-squares / (2.0 * LENGTH_TAXELS**2))
