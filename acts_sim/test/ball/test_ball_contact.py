@@ -138,6 +138,24 @@ def test_adaptive_sampling_finds_the_ball_at_the_centre_and_in_most_other_places
         assert (pressed.ravel()[indices] > 180).sum() == (pressed > 180).sum()
 
 
+@pytest.mark.parametrize(("softer", "share"), [(1.0, 0.86), (2.0, 0.92)])
+def test_adaptive_sampling_misses_the_ball_in_gaps(softer: float, share: float) -> None:
+    """The figures of docs/simulation.md: a ball at rest at each second millimetre within 50 mm of the centre."""
+    config = ContactConfig(foam_stiffness_n_per_m3=CONFIG.foam_stiffness_n_per_m3 / softer)
+    under = BallContact(config, GEOMETRY, RADIUS_M)
+
+    def is_found(x_m: float, y_m: float) -> bool:
+        under.press(x_m, y_m, LOAD_N)
+        _, counts = adaptive(measure_in(np.rint(under.counts).astype(int)), 32, 32, 55)
+        return bool((counts > 180).any())
+
+    places_m = np.linspace(-0.050, 0.050, 51).tolist()
+    assert np.mean([is_found(x_m, y_m) for x_m in places_m for y_m in places_m]) == pytest.approx(share, abs=0.005)
+    if softer == 1.0:
+        for row, col in ((8, 16), (16, 12), (16, 20), (24, 16)):
+            assert not is_found(float(GEOMETRY.x_m(col)), float(GEOMETRY.y_m(row)))
+
+
 def test_a_symmetric_press_gives_a_symmetric_field() -> None:
     under = contact()
     under.press(0.0, 0.0, LOAD_N)

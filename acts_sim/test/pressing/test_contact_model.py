@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from acts_core.array import ArrayGeometry
+from acts_core.array import TOUCH_COUNTS, ArrayGeometry
 from acts_core.errors import SettingsError
 from acts_sim.pressing import OBJECTS, ContactModel, ContactObject, FoamConfig, object_named
 from acts_sim.pressing.contact_model import Press
@@ -165,3 +165,22 @@ def test_unknown_and_repeated_names_are_refused() -> None:
         object_named("cube")
     with pytest.raises(SettingsError, match="'spoon' is registered twice"):
         register("spoon", "daily")(lambda x, y: x)
+
+
+def test_a_centre_weighted_by_counts_is_pulled_to_where_less_presses() -> None:
+    """The figures of docs/reconstruction.md: 20 random presses of each object, taxels above the touch threshold."""
+    model = ContactModel(seed=1)
+    by_counts_m, by_force_m = [], []
+    for item in OBJECTS.values():
+        for _ in range(20):
+            forces = model.forces_n(item, model.random_press(item))
+            counts = model.counts(forces)
+            pressed = counts > TOUCH_COUNTS
+            if not pressed.any():
+                continue
+            truth = centre_m(forces * pressed)
+            by_counts_m.append(math.dist(centre_m(counts * pressed), truth))
+            by_force_m.append(math.dist(centre_m(model.response.force_n(counts) * pressed), truth))
+    assert len(by_counts_m) > 500
+    assert np.median(by_counts_m) == pytest.approx(1.0e-3, abs=0.05e-3)
+    assert np.median(by_force_m) == pytest.approx(0.07e-3, abs=0.005e-3)
