@@ -236,14 +236,9 @@ class ReconstructionConfig(
             As of `arranged`, and when the force response cannot be used.
         """
         arranged = self.arranged()
-        return SkinSetup(
-            arranged.geometry(self.pitch_m, self.row_pitch_m),
-            None if arranged.is_matrix else arranged,
-            self._response(),
-            self.touch_counts,
-            self.noise_counts,
-            self.dead(self.rows, self.cols),
-        )
+        geometry = arranged.geometry(self.pitch_m, self.row_pitch_m)
+        placed, dead = None if arranged.is_matrix else arranged, self.dead(self.rows, self.cols)
+        return SkinSetup(geometry, placed, self._response(), self.touch_counts, self.noise_counts, dead)
 
     def recovery(self) -> Recovery:
         """Make the method that `method` names ready for the first frame; takes seconds when not yet compiled.
@@ -348,6 +343,7 @@ class ReconstructionConfig(
             slip=part_of(SlipConfig, self),
             slip_rate_hz=self.regions_slip_rate_hz,
             sharpness=part_of(SharpnessConfig, self),
+            dead=recovery.dead,
         )
 
     def recogniser(self, recovery: Recovery) -> ObjectRecogniser | None:

@@ -8,7 +8,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of
-from acts_recon.images.dead_taxels import DeadTaxels, DeadTaxelsConfig
+from acts_recon.images.dead_taxels import NO_DEAD, DeadTable, DeadTaxels, DeadTaxelsConfig, fill_dead
 from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_recovered, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
@@ -27,13 +27,16 @@ __all__ = [
     "LEAST_NOISE_COUNTS",
     "LONGEST_PAUSE_S",
     "NOISE_COUNTS",
+    "NO_DEAD",
     "SMALLEST_DIVISOR",
     "BaselineSubtraction",
     "Borders",
+    "DeadTable",
     "DeadTaxels",
     "DeadTaxelsConfig",
     "PlacedSamples",
     "borders_of",
+    "fill_dead",
     "force_of",
     "mono16",
     "require_recovered",

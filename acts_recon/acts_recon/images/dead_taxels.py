@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +71,36 @@ class DeadTaxelsConfig:
         return named if named.any() else None
 
 
+class DeadTable(NamedTuple):
+    """How dead taxels of an image are estimated, for kernels: those that have a live taxel near.
+
+    Attributes
+    ----------
+    places : np.ndarray [shape=(n,), dtype=intp]
+        Where they are in the flat image.
+    around : np.ndarray [shape=(n, k), dtype=intp]
+        Where the live taxels are that each is estimated from.
+    weights : np.ndarray [shape=(n, k), dtype=float32]
+        Of these; 0 where there are fewer than k.
+    unknown_share : np.ndarray [shape=(n,), dtype=float32]
+        Share of the variance of pressure that these leave unknown.
+    """
+
+    places: NDArray[np.intp]
+    around: NDArray[np.intp]
+    weights: NDArray[np.float32]
+    unknown_share: NDArray[np.float32]
+
+
+NO_DEAD = DeadTable(
+    np.zeros(0, dtype=np.intp),
+    np.zeros((0, 1), dtype=np.intp),
+    np.zeros((0, 1), dtype=np.float32),
+    np.zeros(0, dtype=np.float32),
+)
+"""Where no taxel is dead."""
+
+
 class DeadTaxels:
     """Leaves out samples of dead taxels, and estimates these in images.
 
@@ -81,19 +112,26 @@ class DeadTaxels:
         Of the picture; without a layout that is the matrix itself.
     layout : Layout, optional
         Where the taxels of the matrix lie in the picture. Only taxels of the same patch are used.
+
+    Attributes
+    ----------
+    in_picture : np.ndarray [shape=(rows, cols), dtype=bool]
+        Which taxels of the picture are dead.
+    table : DeadTable
+        Of the picture.
     """
 
     def __init__(self, dead: NDArray[np.bool_], geometry: ArrayGeometry, layout: Layout | None = None) -> None:
         # An index outside of the matrix stays, for whoever takes the frame to refuse.
         self._is_live = np.ones(2**16, dtype=np.bool_)
         self._is_live[: dead.size] = ~dead.ravel()
-        in_picture = np.zeros((geometry.rows, geometry.cols), dtype=np.bool_)
+        self.in_picture = in_picture = np.zeros((geometry.rows, geometry.cols), dtype=np.bool_)
         in_picture.ravel()[np.arange(dead.size) if layout is None else layout.places] = dead.ravel()
         rectangle_of = borders_of(geometry.rows, geometry.cols, layout).rectangle_of.reshape(in_picture.shape)
-        self._places: NDArray[np.intp] = np.flatnonzero(in_picture)
-        around = np.zeros((len(self._places), (2 * _REACH + 1) ** 2), dtype=np.intp)
+        places: NDArray[np.intp] = np.flatnonzero(in_picture)
+        around = np.zeros((len(places), (2 * _REACH + 1) ** 2), dtype=np.intp)
         weights = np.zeros(around.shape, dtype=np.float32)
-        unknown_share = np.ones(len(self._places), dtype=np.float32)
+        unknown_share = np.ones(len(places), dtype=np.float32)
         for i, (row, col) in enumerate(np.argwhere(in_picture)):
             top, left = max(row - _REACH, 0), max(col - _REACH, 0)
             near = np.s_[top : row + _REACH + 1, left : col + _REACH + 1]
@@ -107,8 +145,7 @@ class DeadTaxels:
             unknown_share[i] = 1.0 - weights[i, :n] @ correlation
         # Where no live taxel is near, the image is left as the method has it.
         known = (weights != 0.0).any(axis=1)
-        self._places, self._around, self._weights = self._places[known], around[known], weights[known]
-        self._unknown_share = unknown_share[known]
+        self.table = DeadTable(places[known], around[known], weights[known], unknown_share[known])
         # Compile, or load from the cache, what the first frame would otherwise wait for.
         blank = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
         self.fill(blank, blank)
@@ -152,20 +189,13 @@ class DeadTaxels:
         sigma : np.ndarray [shape=(rows, cols), dtype=float32] or None
             Standard deviation of it [counts]; written.
         """
-        deviations = _UNKNOWN if sigma is None else sigma.ravel()
-        _fill(image.ravel(), deviations, self._places, self._around, self._weights, self._unknown_share)
+        fill_dead(image.ravel(), _UNKNOWN if sigma is None else sigma.ravel(), self.table)
 
 
 @kernel
-def _fill(
-    image: NDArray[np.float32],
-    sigma: NDArray[np.float32],
-    places: NDArray[np.intp],
-    around: NDArray[np.intp],
-    weights: NDArray[np.float32],
-    unknown_share: NDArray[np.float32],
-) -> None:
+def fill_dead(image: NDArray[np.float32], sigma: NDArray[np.float32], table: DeadTable) -> None:
     """See `DeadTaxels.fill`; flat arrays, `sigma` is empty where it is not known."""
+    places, around, weights, unknown_share = table.places, table.around, table.weights, table.unknown_share
     for i in range(places.shape[0]):
         estimate = variance = largest = 0.0
         for j in range(around.shape[1]):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import Layout, RegionContact, Response, Vector, force_table
-from acts_recon.images import NOISE_COUNTS, require_recovered
+from acts_recon.images import NOISE_COUNTS, DeadTaxels, require_recovered
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
 from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
@@ -41,6 +41,8 @@ class Regions:
         Motion and slip are looked for so often at most [Hz]; 0: in every image. Images half a second apart are not
         compared, so below 2 Hz nothing is found.
     sharpness : SharpnessConfig, optional
+    dead : DeadTaxels, optional
+        Those of the image: see `SlipWatch`.
 
     Raises
     ------
@@ -57,6 +59,7 @@ class Regions:
         slip: SlipConfig | None = None,
         slip_rate_hz: float = 250.0,
         sharpness: SharpnessConfig | None = None,
+        dead: DeadTaxels | None = None,
     ) -> None:
         patches = layout.patches
         self._shape = (layout.rows, layout.cols)
@@ -79,7 +82,7 @@ class Regions:
         self._watched = np.array(watched, dtype=np.intp)
         self._slips = [NO_SLIP] * len(patches)
         self._watch = SlipWatch(
-            *self._shape, [patches[p] for p in watched], slip, noise_counts, pressed_counts=touch_counts
+            *self._shape, [patches[p] for p in watched], slip, noise_counts, pressed_counts=touch_counts, dead=dead
         )
         self._slip_period_s = _EARLY / slip_rate_hz if slip_rate_hz else 0.0
         self._slip_s = -math.inf

@@ -8,8 +8,8 @@ The pattern of pressure is modelled as that of the reference, shifted by d, with
 
     image - reference = (g - 1) reference - d . grad - s (r - c) . grad
 
-This is solved by least squares over all taxels; `grad` is the gradient of the two images' mean. Force and width are
-unknowns, too, because a grip that tightens changes both, and neither is slip.
+This is solved by least squares over all live taxels; `grad` is the gradient of the two images' mean. Force and width
+are unknowns, too, because a grip that tightens changes both, and neither is slip.
 """
 
 from __future__ import annotations

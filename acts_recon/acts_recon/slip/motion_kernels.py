@@ -26,8 +26,12 @@ def _slope(values: NDArray[np.float32], row: int, col: int, down: int, right: in
 
 
 @kernel
-def normal_equations(reference: NDArray[np.float32], image: NDArray[np.float32], matrix: NDArray[np.float64]) -> Any:
-    """Write A'A and A'b side by side into `matrix` (4, 5); returns b'b and the number of taxels, 0 without pressure.
+def normal_equations(
+    reference: NDArray[np.float32], image: NDArray[np.float32], is_dead: NDArray[np.bool_], matrix: NDArray[np.float64]
+) -> Any:
+    """Write A'A and A'b side by side into `matrix` (4, 5); returns b'b and the number of live taxels.
+
+    Where nothing presses the number is 0. `is_dead`, of the images' shape, says which taxels are estimated from others.
 
     The centre of growth is weighted by the square of the pressure: of a contact that the border cuts, the mean of what
     is left lies farther from its middle.
@@ -47,8 +51,13 @@ def normal_equations(reference: NDArray[np.float32], image: NDArray[np.float32],
     centre_col /= weight
     line = np.empty(_UNKNOWNS + 1)
     squares = 0.0
+    taxels = 0
     for row in range(rows):
         for col in range(cols):
+            # It says nothing that those around do not say.
+            if is_dead[row, col]:
+                continue
+            taxels += 1
             right = 0.5 * (_slope(reference, row, col, 0, 1) + _slope(image, row, col, 0, 1))
             down = 0.5 * (_slope(reference, row, col, 1, 0) + _slope(image, row, col, 1, 0))
             line[0] = reference[row, col]
@@ -63,7 +72,7 @@ def normal_equations(reference: NDArray[np.float32], image: NDArray[np.float32],
     for i in range(_UNKNOWNS):
         for j in range(i):
             matrix[i, j] = matrix[j, i]
-    return squares, rows * cols
+    return squares, taxels
 
 
 @kernel

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
-from acts_recon.images import LONGEST_PAUSE_S, require_recovered
+from acts_recon.images import LONGEST_PAUSE_S, NO_DEAD, DeadTaxels, require_recovered
 from acts_recon.slip import watch_kernels as kernels
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
@@ -74,6 +74,8 @@ class SlipWatch:
         Standard deviation of a measurement [counts].
     pressed_counts : float
         Taxels above are pressed: an image is of the moment at which all these have been measured.
+    dead : DeadTaxels, optional
+        Those of the image; they are estimated from what was measured around them at one moment.
 
     Raises
     ------
@@ -89,6 +91,7 @@ class SlipWatch:
         config: SlipConfig | None = None,
         noise_counts: float = NOISE_COUNTS,
         pressed_counts: float = TOUCH_COUNTS,
+        dead: DeadTaxels | None = None,
     ) -> None:
         self.config = config = SlipConfig() if config is None else config
         for patch in patches:
@@ -124,6 +127,8 @@ class SlipWatch:
             newest=np.zeros(len(patches), dtype=np.int64),
             matrix=np.zeros((4, 5)),
             inverse=np.zeros((4, 4)),
+            is_dead=np.zeros(shape, dtype=np.bool_) if dead is None else dead.in_picture,
+            dead=NO_DEAD if dead is None else dead.table,
         )
         self._results = np.zeros((len(patches), kernels.RESULTS))
         self._told_s = [-math.inf] * len(patches)
@@ -162,7 +167,7 @@ class SlipWatch:
             Sum of the counts on each patch: whether anything presses.
         age_s : np.ndarray [shape=(rows, cols), dtype=float32], optional
             How long ago that was [s], inf: never; without it all were measured now. A patch is watched once each of its
-            taxels has been measured.
+            live taxels has been measured.
 
         Returns
         -------

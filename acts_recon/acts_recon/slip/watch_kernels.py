@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.kernels import kernel
+from acts_recon.images import DeadTable, fill_dead
 from acts_recon.slip.motion_kernels import cut, normal_equations, solve
 
 RESULTS = 9
@@ -45,6 +46,10 @@ class Memory(NamedTuple):
         Which of them is the youngest.
     matrix, inverse : np.ndarray [shape=(4, 5) and (4, 4), dtype=float64]
         For `solve`.
+    is_dead : np.ndarray [shape=(rows, cols), dtype=bool]
+        Taxels that are never measured, since they are broken.
+    dead : DeadTable
+        How these are estimated.
     """
 
     last: NDArray[np.float32]
@@ -57,6 +62,8 @@ class Memory(NamedTuple):
     newest: NDArray[np.int64]
     matrix: NDArray[np.float64]
     inverse: NDArray[np.float64]
+    is_dead: NDArray[np.bool_]
+    dead: DeadTable
 
 
 class Tuning(NamedTuple):
@@ -107,15 +114,17 @@ def _bring_to_one_moment(
             else:
                 share = (moment_s - earlier_s) / (later_s - earlier_s)
                 now[row, col] = before[row, col] + share * (last[row, col] - before[row, col])
+    # Of the other patches, too; theirs are estimated again when they are brought to their moment.
+    fill_dead(now.reshape(-1), now[0, :0], memory.dead)
     return moment_s
 
 
 @kernel
-def _is_known(last_s: NDArray[np.float64], top: int, end: int, left: int, right: int) -> bool:
-    """Whether each taxel of a patch has been measured."""
+def _is_known(memory: Memory, top: int, end: int, left: int, right: int) -> bool:
+    """Whether each live taxel of a patch has been measured."""
     for row in range(top, end):
         for col in range(left, right):
-            if last_s[row, col] == -np.inf:
+            if memory.last_s[row, col] == -np.inf and not memory.is_dead[row, col]:
                 return False
     return True
 
@@ -136,8 +145,8 @@ def watch(
     time_s : float
         Of what `update` was given last.
     bounds : np.ndarray [shape=(patches, 4), dtype=int64]
-        First and end row, first and end column of every patch, at least 3 by 3. While a taxel of a patch has not been
-        measured, nothing is estimated there: it would look as if the contact grew to one side.
+        First and end row, first and end column of every patch, at least 3 by 3. While a live taxel of a patch has not
+        been measured, nothing is estimated there: it would look as if the contact grew to one side.
     counts : np.ndarray [shape=(patches,), dtype=float64]
         Sum over each patch; with fewer than `min_counts` nothing is estimated, and the patch's past is forgotten.
     memory : Memory
@@ -150,7 +159,7 @@ def watch(
     kept = past.shape[0]
     for p in range(bounds.shape[0]):
         top, end, left, right = bounds[p]
-        if not (counts[p] >= tuning.min_counts and _is_known(memory.last_s, top, end, left, right)):
+        if not (counts[p] >= tuning.min_counts and _is_known(memory, top, end, left, right)):
             past_s[p] = -np.inf
             results[p] = 0.0
             continue
@@ -168,7 +177,7 @@ def watch(
         results[p] = 0.0
         if reference >= 0:
             then = past[reference, top:end, left:right]
-            squares, taxels = normal_equations(then, now, memory.matrix)
+            squares, taxels = normal_equations(then, now, memory.is_dead[top:end, left:right], memory.matrix)
             if taxels:
                 right_by, down_by, deviation, gain, growth = solve(
                     memory.matrix, memory.inverse, squares, taxels, tuning.noise_counts, tuning.ridge

@@ -28,16 +28,23 @@ def press(row: float, col: float, width: float = 1.5, counts: float = 600.0, sid
 
 
 def motion_between(
-    reference: NDArray[np.float32], image: NDArray[np.float32], noise_counts: float = 1.5
+    reference: NDArray[np.float32],
+    image: NDArray[np.float32],
+    noise_counts: float = 1.5,
+    is_dead: NDArray[np.bool_] | None = None,
 ) -> Motion | None:
     """By the kernels; None where nothing presses."""
     matrix = np.zeros((4, 5))
-    squares, count = normal_equations(reference, image, matrix)
+    dead = np.zeros(image.shape, dtype=np.bool_) if is_dead is None else is_dead
+    squares, count = normal_equations(reference, image, dead, matrix)
     return Motion(*solve(matrix, np.zeros((4, 4)), squares, count, noise_counts, RIDGE)) if count else None
 
 
-def by_lstsq(reference: NDArray[np.float32], image: NDArray[np.float32]) -> NDArray[np.float64]:
+def by_lstsq(
+    reference: NDArray[np.float32], image: NDArray[np.float32], is_live: NDArray[np.bool_] | None = None
+) -> NDArray[np.float64]:
     """The same least squares as arrays: shift along columns and rows, gain, growth."""
+    kept = np.ones(image.size, dtype=np.bool_) if is_live is None else is_live.ravel()
     before, after = reference.astype(float), image.astype(float)
     mean = (before + after) / 2
     down, right = np.gradient(mean)
@@ -45,7 +52,7 @@ def by_lstsq(reference: NDArray[np.float32], image: NDArray[np.float32]) -> NDAr
     weight = np.maximum(mean, 0.0) ** 2
     row, col = (rows * weight).sum() / weight.sum(), (cols * weight).sum() / weight.sum()
     lines = np.stack([before, right, down, (cols - col) * right + (rows - row) * down], -1).reshape(-1, 4)
-    solution = np.linalg.lstsq(lines, (after - before).ravel(), rcond=None)[0]
+    solution = np.linalg.lstsq(lines[kept], (after - before).ravel()[kept], rcond=None)[0]
     return np.array([-solution[1], -solution[2], 1.0 + solution[0], -solution[3]])
 
 

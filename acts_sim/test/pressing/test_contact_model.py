@@ -179,7 +179,7 @@ def test_a_centre_weighted_by_counts_is_pulled_to_where_less_presses() -> None:
             if not pressed.any():
                 continue
             truth = centre_m(forces * pressed)
-            by_counts_m.append(math.dist(centre_m(counts * pressed), truth))
+            by_counts_m.append(math.dist(centre_m(counts.astype(float) * pressed), truth))
             by_force_m.append(math.dist(centre_m(model.response.force_n(counts) * pressed), truth))
     assert len(by_counts_m) > 500
     assert np.median(by_counts_m) == pytest.approx(1.0e-3, abs=0.05e-3)

@@ -30,6 +30,25 @@ def test_slip_is_told_soon_and_never_in_a_hold(tmp_path: Path, capsys: pytest.Ca
     assert "| 128 |" in capsys.readouterr().out
 
 
+def test_slip_is_told_as_soon_on_a_skin_whose_dead_taxels_are_known(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = tmp_path / "out.json"
+    words = ["evaluate", "slip-sampled", "--m", "128", "--seeds", "1", "--hold-s", "0.1", "--json", str(output)]
+    lines = "row=20"
+    assert main([*words, "--broken-taxels", lines]) == 0
+    broken = json.loads(output.read_text())["results"][0]["delay_ms"]
+    assert main([*words, "--broken-taxels", lines, "--dead-taxels", lines]) == 0
+    report = json.loads(output.read_text())
+    assert report["broken_taxels"] == report["dead_taxels"] == lines
+    told = report["results"][0]["delay_ms"]
+    assert None in broken or max(broken) > 15.0
+    assert None not in told
+    assert max(told) < 15.0
+    assert main([*words, "--broken-taxels", "row=32"]) == 1
+    assert "broken_taxels: 'row=32' is outside of an array of 32 x 32" in capsys.readouterr().err
+
+
 def test_limits_can_be_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     output = tmp_path / "out.json"
     words = ["--m", "128", "--seeds", "1", "--hold-s", "0.1", "--set", "slip_distance_m=0.02", "--json", str(output)]

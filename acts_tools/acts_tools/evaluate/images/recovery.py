@@ -17,14 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.errors import SettingsError
 from acts_core.frames import last_samples
 from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, setting, validate
-from acts_core.skin import TAXELS_RULE, taxels_named
-from acts_recon.images import DeadTaxels, DeadTaxelsConfig
+from acts_recon.images import DeadTaxels
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
+from acts_tools.evaluate.broken_taxels import BrokenTaxels
 from acts_tools.evaluate.estimators.methods import method_named
 from acts_tools.evaluate.images import calibration
 from acts_tools.evaluate.images.scores import FRAME_SCORES, INVENTED, FrameScores, score_image
@@ -56,7 +55,7 @@ class Recording:
 
 
 @dataclass(frozen=True)
-class Task:
+class Task(BrokenTaxels):
     """Settings of one line of the report.
 
     Attributes
@@ -65,7 +64,7 @@ class Task:
         Settings of the sampling; its `threshold_counts` is that of the search.
     method : str
         See `acts_tools.evaluate.estimators.methods.method_names`.
-    rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step, broken_taxels, dead_taxels : see below
+    rate_hz, touch_counts, sample_us, noise_counts, onset_s, patch_step : see below
     settings : tuple of (str, value)
         Further settings of the method.
     """
@@ -81,26 +80,17 @@ class Task:
     onset_s: float = setting(
         0.020, "time for which a contact counts as new, except in recordings of a single frame", minimum=0
     )
-    broken_taxels: str = setting("", f"taxels that read 0, but for added noise: {TAXELS_RULE}")
-    dead_taxels: str = setting("", "taxels that the recovery is told to be dead, in the same way")
     patch_step: int = setting(4, "taxels between patches, for methods that use patches", minimum=1, maximum=64)
     settings: tuple[tuple[str, SettingValue], ...] = ()
 
     def __post_init__(self) -> None:
         validate(self)
-        self.are_broken()
-        self.are_dead()
+        self.are_broken(*self._size)
+        self.are_dead(*self._size)
 
-    def are_broken(self) -> NDArray[np.bool_]:
-        """`broken_taxels`; bool (rows, cols)."""
-        try:
-            return taxels_named(self.broken_taxels, self.sampling.rows, self.sampling.cols)
-        except SettingsError as error:
-            raise SettingsError(f"broken_taxels: {error}") from None
-
-    def are_dead(self) -> NDArray[np.bool_] | None:
-        """`dead_taxels`; bool (rows, cols), or None where there are none."""
-        return DeadTaxelsConfig(self.dead_taxels).dead(self.sampling.rows, self.sampling.cols)
+    @property
+    def _size(self) -> tuple[int, int]:
+        return self.sampling.rows, self.sampling.cols
 
     @property
     def duration_s(self) -> float:
@@ -221,7 +211,8 @@ class _Scored:
 def _skin_of(task: Task) -> SkinSetup:
     """What is known of the skin: also the noise that is added, as by a calibration."""
     geometry = ArrayGeometry(rows=task.sampling.rows, cols=task.sampling.cols)
-    skin = SkinSetup(geometry, touch_counts=task.touch_counts, dead_taxels=task.are_dead())
+    dead = task.are_dead(geometry.rows, geometry.cols)
+    skin = SkinSetup(geometry, touch_counts=task.touch_counts, dead_taxels=dead)
     # Without noise of ours nothing is known of the noise in a recording: the method's own setting holds.
     return replace(skin, noise_counts=task.noise_counts) if task.noise_counts > 0 else skin
 
@@ -294,7 +285,7 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
     """Sample and recover a recording; at least one frame, with the last image held constant."""
     sampler = sampler_of(task.sampling, task.noise_counts)
     frames = np.ascontiguousarray(recording.frames)
-    sampled = np.where(task.are_broken(), np.uint16(0), frames) if task.broken_taxels else frames
+    sampled = np.where(task.are_broken(*frames.shape[1:]), np.uint16(0), frames) if task.broken_taxels else frames
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)
     live = recording.live.ravel()

@@ -25,8 +25,9 @@ from acts_core.skin import Layout, SkinPatch, layout
 from acts_recon.fusion import known_noise
 from acts_recon.settings import ReconstructionSettings
 from acts_recon.slip import SlipConfig
-from acts_tools.arguments import at_least_one, given_settings, real
+from acts_tools.arguments import add_settings, at_least_one, given_settings, real
 from acts_tools.evaluate import report
+from acts_tools.evaluate.broken_taxels import BrokenTaxels
 from acts_tools.evaluate.options import add_json, add_m
 from acts_tools.firmware.board_sampler import BoardSampler
 
@@ -69,6 +70,7 @@ def add_parser(commands: Any) -> None:
         metavar="NAME=VALUE",
         help="set a limit of slip (docs/reference.md, reconstruction: slip_...)",
     )
+    add_settings(parser, BrokenTaxels)
     add_json(parser)
     parser.set_defaults(evaluate=_run)
 
@@ -125,24 +127,42 @@ def _press(shape: str, patch: SkinPatch, at: Array, move: Array, radius_m: float
 
 
 def told(
-    skin: Layout, m: int, seed: int, seconds: float, picture_at: Callable[[float], Array], slip: SlipConfig
+    skin: Layout,
+    m: int,
+    seed: int,
+    seconds: float,
+    picture_at: Callable[[float], Array],
+    slip: SlipConfig,
+    broken: BrokenTaxels,
 ) -> list[tuple[float, int]]:
     """Time [s] and patch of every start of slip."""
+    sound = ~broken.are_broken(skin.matrix_rows, skin.matrix_cols)
+
+    def matrix_at(time_s: float) -> NDArray[np.uint16]:
+        return np.rint(skin.matrix(picture_at(time_s)) * sound).astype(np.uint16)
+
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
     # A driver tells its board how the taxels lie on the skin.
     sampler = BoardSampler(config, _NOISE_COUNTS, skin_map=None if skin.is_matrix else SkinMap.of(skin))
-    settings = ReconstructionSettings(layout=skin.name, noise_counts=known_noise(_NOISE_COUNTS), **asdict(slip))
+    settings = ReconstructionSettings(
+        layout=skin.name,
+        noise_counts=known_noise(_NOISE_COUNTS),
+        dead_taxels=broken.dead_taxels,
+        **asdict(slip),
+    )
     recovery = settings.recovery()
     regions = settings.regions(recovery)
     if regions is None:
         raise SettingsError(f"--layout {skin.name}: the reconstruction tells no slip of a skin of one patch on no link")
     found: list[tuple[float, int]] = []
     slipping = [False] * len(skin.patches)
-    before = np.rint(skin.matrix(picture_at(0.0))).astype(np.uint16)
+    before = matrix_at(0.0)
     for k in range(1, round(seconds / _FRAME_S)):
         time_s = k * _FRAME_S
-        after = np.rint(skin.matrix(picture_at(time_s))).astype(np.uint16)
+        after = matrix_at(time_s)
         indices, counts = sampler.frame(np.stack((before, after)), 1.0 / m, 1.0 / m)
+        if recovery.dead is not None:
+            indices, counts = recovery.dead.left_out(indices, counts)
         recovery.step(indices, counts, time_s, 0.95 * _FRAME_S)
         before = after
         for p, region in enumerate(regions.step(time_s, recovery.image, recovery.measured, recovery.age_s)):
@@ -153,7 +173,13 @@ def told(
 
 
 def _delay_ms(
-    skin: Skin, m: int, seed: int, way_m: Callable[[float], float], noticed_s: float, slip: SlipConfig
+    skin: Skin,
+    m: int,
+    seed: int,
+    way_m: Callable[[float], float],
+    noticed_s: float,
+    slip: SlipConfig,
+    broken: BrokenTaxels,
 ) -> tuple[float, int]:
     """Delay after 0.2 mm [ms], inf for never; and number of detections without motion."""
     begin_s = 0.3 + seed * _FRAME_S
@@ -161,7 +187,7 @@ def _delay_ms(
     def picture_at(time_s: float) -> Array:
         return skin.at(time_s, way_m(max(time_s - begin_s, 0.0)))
 
-    found = told(skin.layout, m, seed, begin_s + noticed_s + 0.05, picture_at, slip)
+    found = told(skin.layout, m, seed, begin_s + noticed_s + 0.05, picture_at, slip, broken)
     times_s = [time_s for time_s, patch in found if patch == skin.moving and time_s > begin_s]
     delay_s = times_s[0] - begin_s - noticed_s if times_s else math.inf
     return 1e3 * delay_s, len(found) - len(times_s)
@@ -173,9 +199,9 @@ def _in_words(delay_ms: float) -> str:
 
 def _run(arguments: argparse.Namespace) -> int:
     slip = SlipConfig(**given_settings(SlipConfig, arguments.set, "limits of slip"))
-    results = report.Results(
-        arguments.json, {"layout": arguments.layout, "hold_s": arguments.hold_s, "slip": asdict(slip)}
-    )
+    broken = BrokenTaxels(broken_taxels=arguments.broken_taxels, dead_taxels=arguments.dead_taxels)
+    about = {"layout": arguments.layout, "hold_s": arguments.hold_s, "slip": asdict(slip), **asdict(broken)}
+    results = report.Results(arguments.json, about)
     skin = layout(arguments.layout, 32, 32)
     print(
         "| M | detected after 0.2 mm: median, last [ms] | false slips while closing | in the hold |\n|---|---|---|---|"
@@ -190,10 +216,10 @@ def _run(arguments: argparse.Namespace) -> int:
             for shape in _SHAPES:
                 pressed = Skin(skin, shape, seed)
                 for way_m, noticed_s in motions:
-                    delay_ms, wrong = _delay_ms(pressed, m, seed, way_m, noticed_s, slip)
+                    delay_ms, wrong = _delay_ms(pressed, m, seed, way_m, noticed_s, slip, broken)
                     delays_ms.append(delay_ms)
                     closing += wrong
-        found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at, slip)
+        found = told(skin, m, 0, 0.5 + arguments.hold_s, Skin(skin, "soft", 0).at, slip, broken)
         holding = sum(time_s > 0.5 for time_s, _ in found)
         delay = ", ".join(_in_words(delay_ms) for delay_ms in (float(np.median(delays_ms)), max(delays_ms)))
         # JSON knows no infinity: null where slip was never reported.
