@@ -43,7 +43,7 @@ class Seen:
     contact, contacts : np.ndarray or None
         Columns are `CONTACT_COLUMNS` and `CONTACTS_COLUMNS`; None for a recorded image.
     is_whole : bool
-        Whether every taxel had been measured by then.
+        Whether every taxel that is not dead had been measured by then.
     """
 
     stamp_ns: int
@@ -219,6 +219,6 @@ def _seen(recovery: FrameRecovery, samples: TactileSamples) -> Seen:
     stamp_ns = stamp_ns_of(samples)
     recovery.step(frame_of(samples), stamp_ns)
     image = np.rint(recovery.recovery.image).astype(np.uint16)
-    age_s = recovery.recovery.age_s
-    is_whole = age_s is None or bool(np.isfinite(age_s).all())
+    age_s, dead = recovery.recovery.age_s, recovery.recovery.dead
+    is_whole = age_s is None or bool(np.isfinite(age_s if dead is None else age_s[~dead.in_picture]).all())
     return Seen(stamp_ns, image, contact_found(recovery.contact), contacts_found(recovery.blobs), is_whole)

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
-from test_export import contact, contacts, header, image, joints, pressed, rows_of, samples, write_bag
+from test_export import SIDE, contact, contacts, header, image, joints, pressed, rows_of, samples, write_bag
 
 from acts_core.errors import ArrayError, RecordingError
+from acts_core.skin import layout
 from acts_tools.cli import main
 from acts_tools.export.recording import open_recording
 from acts_tools.export.topics import Choice
@@ -114,6 +115,22 @@ def test_dead_taxels_are_estimated_in_what_is_recovered(tmp_path: Path, capsys: 
     words = ["export", str(whole), "--to", "csv", "-o", str(tmp_path / "out"), "--dead-taxels", "row=10 3,4"]
     assert main(words) == 1
     assert "--dead-taxels 'row=10 3,4' is of no use: it is for what is recovered" in capsys.readouterr().err
+
+
+def test_with_dead_taxels_too_contacts_of_another_layout_are_left_out(tmp_path: Path) -> None:
+    glove = layout("glove", SIDE, SIDE)
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(10 * n, glove.picture(pressed(n)).astype(np.uint16))) for n in range(3)),
+        *(("/plate/samples", samples(10 * n, pressed(n))) for n in range(3)),
+    )
+    with open_recording(path, Choice(dead_taxels="row=10 3,4")) as recording:
+        assert not any(row.contacts is not None and len(row.contacts) for row in recording.rows())
+        (note,) = recording.notes()
+    assert "with the layout square /plate/samples does not give the images of /plate/image_raw" in note
+    with open_recording(path, Choice(dead_taxels="row=10 3,4", layout="glove")) as recording:
+        assert all(row.contacts is not None and len(row.contacts) for row in recording.rows())
+        assert recording.notes() == []
 
 
 def test_a_layout_that_there_is_not_is_refused(tmp_path: Path) -> None:
