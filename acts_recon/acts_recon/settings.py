@@ -303,6 +303,7 @@ class ReconstructionConfig(
             noise_counts=skin.assumed_noise_counts,
             config=part_of(SpectraConfig, self),
             layout=skin.layout,
+            dead=recovery.dead,
         )
 
     def outline_tracer(self, recovery: Recovery) -> OutlineTracer:

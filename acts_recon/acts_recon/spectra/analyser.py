@@ -17,6 +17,7 @@ from acts_recon.images import (
     LEAST_NOISE_COUNTS,
     LONGEST_PAUSE_S,
     NOISE_COUNTS,
+    DeadTaxels,
     PlacedSamples,
     borders_of,
     require_times,
@@ -76,6 +77,8 @@ class SpectrumAnalyser:
     config : SpectraConfig, optional
     layout : Layout, optional
         No contact reaches over a border of its patches.
+    dead : DeadTaxels, optional
+        Those of the skin: a contact across them is one, if what the taxels around say of them is touched, too.
     """
 
     def __init__(
@@ -86,8 +89,10 @@ class SpectrumAnalyser:
         noise_counts: float = NOISE_COUNTS,
         config: SpectraConfig | None = None,
         layout: Layout | None = None,
+        dead: DeadTaxels | None = None,
     ) -> None:
         self.config = config or SpectraConfig()
+        self._dead = dead
         self._geometry = geometry
         self._shape = geometry.rows, geometry.cols
         self._samples = PlacedSamples(geometry, layout)
@@ -174,6 +179,11 @@ class SpectrumAnalyser:
         """The number of the contact that each taxel belongs to, 0: none; shape (taxels,)."""
         from scipy import ndimage
 
+        if self._dead is not None:
+            # Only to tell contacts apart: what is estimated has no samples.
+            filled = mean.astype(np.float32)
+            self._dead.fill(filled, None)
+            mean = filled.astype(np.float64)
         pressed = mean > self._touch_counts
         if self.config.spectra_of == "patches":
             labels = np.where(pressed, self._borders.rectangle_of.astype(np.intp) + 1, 0).reshape(self._shape)

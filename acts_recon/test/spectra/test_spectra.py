@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
-from acts_core.skin import ForceResponse, force_table, layout
+from acts_core.skin import ForceResponse, force_table, layout, taxels_named
+from acts_recon.images import DeadTaxels
 from acts_recon.spectra import SpectraConfig, Spectrum, SpectrumAnalyser
 
 GEOMETRY = ArrayGeometry()
@@ -209,6 +210,21 @@ def test_no_contact_reaches_over_a_border_and_a_patch_is_one_if_asked_for(of: st
         assert round(spectrum.peaks[0].frequency_hz) == 100
     if of == "patches":
         assert len(spectra) == 2
+
+
+def test_a_contact_across_a_dead_row_has_one_spectrum() -> None:
+    dead = taxels_named("row=12", GEOMETRY.rows, GEOMETRY.cols)
+    around = [32 * row + col for row in (10, 11, 13, 14) for col in range(8, 12)]
+    found = []
+    for known in (None, DeadTaxels(dead, GEOMETRY)):
+        analyser = SpectrumAnalyser(GEOMETRY, RESPONSE, noise_counts=2.0, dead=known)
+        hear(analyser, {100.0: 0.3}, taxels=around)
+        found.append(analyser.spectra())
+    assert len(found[0]) == 2
+    (spectrum,) = found[1]
+    assert round(spectrum.peaks[0].frequency_hz) == 100
+    assert spectrum.taxels >= len(around)
+    assert spectrum.force_n == pytest.approx(sum(one.force_n for one in found[0]), rel=0.02)
 
 
 @settings(max_examples=25, deadline=None)
