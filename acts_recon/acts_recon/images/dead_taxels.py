@@ -8,7 +8,9 @@ process regression is called in geostatistics (Rasmussen and Williams, Gaussian 
 eqs. 2.23 and 2.24). Pressure at the distance of d taxels is correlated by ``exp(-d^2 / (2 LENGTH_TAXELS^2))``, which
 is about how far a foam spreads it. With the correlations ``K`` between live taxels, and ``k`` between them and a dead
 one, the estimate is ``w . counts`` with ``w = (K + NOISE_SHARE I)^-1 k``. What these leave unknown is the share
-``1 - w . k`` of the variance; the largest of the counts around stands for the standard deviation of pressure.
+``1 - w . k`` of the variance; the largest of the counts around stands for the standard deviation of pressure. Where
+more than half is unknown, as in the middle of several dead lines, counts of 0 around say little: the standard deviation
+is at least that of the method, which has never measured there.
 """
 
 from __future__ import annotations
@@ -33,6 +35,9 @@ LENGTH_TAXELS = 1.3
 
 NOISE_SHARE = 0.03
 """Variance of what correlations do not explain, over that of pressure: keeps weights small."""
+
+_KNOWN_SHARE = 0.5
+"""Of the variance: where less is known, an estimate is no surer than a taxel that was never measured."""
 
 _REACH = 3
 """Live taxels farther away, in rows or columns, are not used: their weights are next to 0."""
@@ -187,7 +192,7 @@ class DeadTaxels:
         image : np.ndarray [shape=(rows, cols), dtype=float32]
             Counts; written, in whole counts as readings are.
         sigma : np.ndarray [shape=(rows, cols), dtype=float32] or None
-            Standard deviation of it [counts]; written.
+            Standard deviation of it, as the method has it [counts]; written.
         """
         fill_dead(image.ravel(), _UNKNOWN if sigma is None else sigma.ravel(), self.table)
 
@@ -208,7 +213,10 @@ def fill_dead(image: NDArray[np.float32], sigma: NDArray[np.float32], table: Dea
                     variance += (weight * sigma[taxel]) ** 2
         image[places[i]] = np.float32(round(min(max(estimate, 0.0), float(COUNT_MAX))))
         if sigma.shape[0] > 0:
-            sigma[places[i]] = np.float32(math.sqrt(variance + unknown_share[i] * largest**2))
+            deviation = np.float32(math.sqrt(variance + unknown_share[i] * largest**2))
+            if unknown_share[i] > 1.0 - _KNOWN_SHARE:
+                deviation = max(deviation, sigma[places[i]])
+            sigma[places[i]] = deviation
 
 
 def _correlation(places: NDArray[np.intp], others: NDArray[np.intp]) -> NDArray[np.float64]:

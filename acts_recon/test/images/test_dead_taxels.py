@@ -50,6 +50,8 @@ def kriging(
         filled[row, col] = np.rint(np.clip(weights @ counts, 0, 1023))
         unknown = (1 - weights @ to_dead) * counts.max() ** 2
         deviations[row, col] = np.sqrt((weights**2) @ (sigmas**2) + unknown)
+        if 1 - weights @ to_dead > 0.5:
+            deviations[row, col] = max(deviations[row, col], sigma[row, col])
     return filled, deviations
 
 
@@ -120,6 +122,16 @@ def test_what_is_estimated_is_less_sure_than_what_is_measured() -> None:
     assert confidence[7, 7] < confidence[6, 7]
     # Far from all touch there is nothing to be unsure of.
     assert recovery.sigma[7, 0] < 10
+
+
+@pytest.mark.parametrize("last", [7, 9, 12])
+def test_what_is_far_from_all_live_taxels_is_not_known(last: int) -> None:
+    words = " ".join(f"row={row}" for row in range(5, last + 1))
+    recovery = recovered(np.zeros((SIDE, SIDE), dtype=np.uint16), words).recovery
+    confidence = recovery.confidence()
+    assert confidence is not None
+    assert confidence[(5 + last) // 2, 7] < 10
+    assert confidence[4, 7] > 240
 
 
 def test_a_stuck_taxel_is_no_contact() -> None:
