@@ -11,6 +11,7 @@ from pathlib import Path
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, default_of, describe, is_given, refuse_doubles, setting
+from acts_core.skin import dead_taxels_named
 from acts_driver.baseline import BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
@@ -106,6 +107,7 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
         RealtimeConfig.__post_init__(self)
         check_port(self.port)
         self.check_board_parameters()
+        dead_taxels_named(self.dead_taxels, self.rows, self.cols)  # refuses what are no taxels
 
     @property
     def is_replay(self) -> bool:

@@ -13,7 +13,7 @@ from acts_core.skin.layout_file import MAX_PATCHES
 from acts_core.skin.layouts import LAYOUTS, NO_PATCH, Layout, layout, layout_path
 from acts_core.skin.region_contact import RegionContact, Vector
 from acts_core.skin.skin_patch import SkinPatch
-from acts_core.skin.taxel_words import TAXELS_RULE, taxels_in_words, taxels_named
+from acts_core.skin.taxel_words import TAXELS_RULE, dead_taxels_named, taxels_in_words, taxels_named
 from acts_core.skin.tracked_blob import TrackedBlob
 
 __all__ = [
@@ -29,6 +29,7 @@ __all__ = [
     "SkinPatch",
     "TrackedBlob",
     "Vector",
+    "dead_taxels_named",
     "force_table",
     "layout",
     "layout_path",

@@ -54,6 +54,23 @@ def taxels_named(words: str, rows: int, cols: int) -> NDArray[np.bool_]:
     return named
 
 
+def dead_taxels_named(words: str, rows: int, cols: int) -> NDArray[np.bool_]:
+    """`taxels_named` of a setting `dead_taxels`, which its errors name, and which leaves at least one taxel.
+
+    Raises
+    ------
+    SettingsError
+        As of `taxels_named`, or all taxels are named.
+    """
+    try:
+        named = taxels_named(words, rows, cols)
+    except SettingsError as error:
+        raise SettingsError(f"dead_taxels: {error}") from None
+    if named.all():
+        raise SettingsError(f"dead_taxels = {words!r}: these are all taxels; leave out those that work")
+    return named
+
+
 def taxels_in_words(taxels: NDArray[np.bool_]) -> str:
     """What `taxels_named` makes these taxels of: whole rows, whole columns, and what is left.
 

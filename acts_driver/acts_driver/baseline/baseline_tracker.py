@@ -19,7 +19,7 @@ from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import NS_PER_S, Pace
 from acts_core.settings import setting, validate
-from acts_core.skin import Layout, layout
+from acts_core.skin import TAXELS_RULE, Layout, dead_taxels_named, layout
 from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
@@ -39,7 +39,7 @@ _FREEZE_SIGMAS = 6.0
 class BaselineConfig:
     """Settings of `BaselineTracker`.
 
-    The driver sets `touch_counts` and `tau_s` alone; the others are no parameters, and shorter in tests.
+    The driver sets `touch_counts`, `tau_s` and `dead_taxels` alone; the others are no parameters, and shorter in tests.
     """
 
     touch_counts: int = setting(
@@ -55,6 +55,7 @@ class BaselineConfig:
         60.0, "time constant of following the drift of untouched taxels [s]; 0: the baseline stays", minimum=0.0
     )
     hold_s: float = setting(1.0, "how long a baseline stays frozen after the touch [s]", minimum=0.0)
+    dead_taxels: str = setting("", f"taxels that are never taken for touched: {TAXELS_RULE}")
 
     def __post_init__(self) -> None:
         validate(self)
@@ -157,10 +158,16 @@ class BaselineTracker:
     rows, cols : int
         Size of the array; every frame must have it.
     config : BaselineConfig
+
+    Raises
+    ------
+    SettingsError
+        Its `dead_taxels` are none of this array, or all.
     """
 
     def __init__(self, rows: int, cols: int, config: BaselineConfig | None = None) -> None:
         self.config = config or BaselineConfig()
+        self._dead = dead_taxels_named(self.config.dead_taxels, rows, cols).ravel()
         self._shape = (rows, cols)
         self._neighbours = layout("square", rows, cols).neighbours
         size = rows * cols
@@ -296,7 +303,7 @@ class BaselineTracker:
             if self._source is None:
                 return None
             now_ns, baseline = self._now_ns, self._baseline.copy()
-            known = self._freeze >= 0
+            known = (self._freeze >= 0) & ~self._dead
         if not self._history or now_ns < self._history[-1][0]:
             self._history.clear()
             self._history.append((now_ns, baseline))
@@ -366,7 +373,8 @@ class BaselineTracker:
         return self._beside_others((readings.n > 0) & ((readings.mean - known > limit) | (readings.span > limit)))
 
     def _beside_others(self, suspicious: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Those of these taxels that are not alone."""
+        """Those of these taxels that are not alone. Dead ones say nothing, whatever they read."""
+        suspicious = suspicious & ~self._dead
         # -1, no neighbour, is the last of these.
         around = np.append(suspicious, False)[self._neighbours]
         return suspicious & around.any(axis=1)
@@ -382,6 +390,8 @@ class BaselineTracker:
         self._noise[:] = np.where(valid, noise, 0.0)
         drift = np.maximum(_FREEZE_COUNTS, _FREEZE_SIGMAS * self._noise)
         self._freeze[:] = np.where(valid, np.minimum(drift, max(self.config.touch_counts, _FREEZE_COUNTS)), -1.0)
+        # What a dead one reads is no touch, and keeps no taxel around from following its drift.
+        self._freeze[self._dead & valid] = COUNT_MAX + 1
         self._frozen_until_ns[:] = 0
         self._source = source
         self._history.clear()

@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
-from acts_core.errors import ArrayError, SettingsError
+from acts_core.errors import ArrayError
 from acts_core.kernels import kernel
 from acts_core.settings import setting, validate
-from acts_core.skin import TAXELS_RULE, Layout, taxels_named
+from acts_core.skin import TAXELS_RULE, Layout, dead_taxels_named
 from acts_recon.images.borders import borders_of
 from acts_recon.images.frame_check import require_samples
 
@@ -67,12 +67,7 @@ class DeadTaxelsConfig:
         SettingsError
             `dead_taxels` names no taxels of it, or all of them.
         """
-        try:
-            named = taxels_named(self.dead_taxels, rows, cols)
-        except SettingsError as error:
-            raise SettingsError(f"dead_taxels: {error}") from None
-        if named.all():
-            raise SettingsError(f"dead_taxels = {self.dead_taxels!r}: these are all taxels; leave out those that work")
+        named = dead_taxels_named(self.dead_taxels, rows, cols)
         return named if named.any() else None
 
 

@@ -9,6 +9,7 @@ import threading
 import time
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -208,7 +209,7 @@ class BoardSource:
     layout : str
         As `acts_core.skin.layouts.layout` takes it.
     dead_taxels : str
-        As the parameter of the reconstruction.
+        As the parameter of driver and reconstruction.
     log : callable
         Takes a level and a sentence.
     with_outlines : bool
@@ -241,7 +242,8 @@ class BoardSource:
         # Now, since frames come as soon as the port is read.
         settings = ReconstructionSettings(rows=driver.rows, cols=driver.cols, layout=layout, dead_taxels=dead_taxels)
         self.skin = LocalSkin(settings, with_outlines=with_outlines)
-        self._tracker = BaselineTracker(driver.rows, driver.cols, driver.baseline_config())
+        baseline = replace(driver.baseline_config(), dead_taxels=dead_taxels)
+        self._tracker = BaselineTracker(driver.rows, driver.cols, baseline)
         self._tracker.arrange(layout_of(layout, driver.rows, driver.cols))
         self._intake = Intake(driver, self._source, self._take, log=log, on_board=lambda _: None)
         self._told: dict[str, Any] = {}
