@@ -118,10 +118,13 @@ class FramePipeline:
             One of the two cannot be; nothing is changed then.
         """
         check_untouched("noise", noise_counts, valid, self.size[0] * self.size[1])
+        dead = self.recovery.skin.dead_taxels
+        # What a dead taxel reads untouched says nothing either: it may jump from one calibration to the next.
+        used = valid if dead is None else valid & ~dead.ravel()
         with self._lock:
             raw = self._raw.copy()  # a frame may come meanwhile
             was_touched = self._baseline.are_above(raw, self._touch_counts)
-            change = np.abs(self._baseline.set(counts, valid))
+            change = np.abs(self._baseline.set(counts, used))
             has_turned = was_touched != self._baseline.are_above(raw, self._touch_counts)
             # What drifts is asked first: `touch_counts` may be less.
             if ((change > _DRIFT_COUNTS) & (has_turned | (change > self._touch_counts))).any():

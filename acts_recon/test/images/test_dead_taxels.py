@@ -168,6 +168,23 @@ def test_a_frame_of_dead_taxels_alone_is_refused_and_the_next_one_counts() -> No
     assert len(recovery.every.indices) == SIDE * (SIDE - 1)
 
 
+def test_a_baseline_of_a_dead_taxel_that_jumps_renews_no_contact() -> None:
+    image = press(11, 8, 1.6, 700, (SIDE, SIDE))
+    image[2] = 500
+    sound = np.ones(SIDE * SIDE, dtype=np.bool_)
+    noise, counts = np.full(SIDE * SIDE, 2.0, dtype=np.float32), np.zeros((SIDE, SIDE), dtype=np.float32)
+    numbers = []
+    for words in ("row=2", ""):
+        recovery = FrameRecovery(ReconstructionSettings(rows=SIDE, cols=SIDE, dead_taxels=words))
+        for number in range(1, FRAMES + 1):
+            counts[2] = 500 * (number > FRAMES // 2)
+            recovery.set_baseline(counts.ravel(), noise, sound)
+            recovery.step(frame(number, image), 20_000_000 * number)
+        numbers.append([blob.number for blob in recovery.blobs])
+    assert numbers[0] == [1]
+    assert numbers[1] != [1]
+
+
 def test_a_dead_taxel_that_is_measured_several_times_is_left_out_each_time() -> None:
     image = press(8, 8, 1.6, 700, (SIDE, SIDE))
     recovery = FrameRecovery(ReconstructionSettings(rows=SIDE, cols=SIDE, dead_taxels="8,8"))
