@@ -117,6 +117,15 @@ def test_broken_taxels_read_nothing_and_those_that_are_told_are_estimated(tmp_pa
     assert told["cop_error_taxels"]["mean"] < 0.03 < broken["cop_error_taxels"]["mean"]
 
 
+def test_frames_of_dead_taxels_alone_are_left_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    frames, words = np.full((200, 4, 4), 400, dtype=np.uint16), ["--m", "1", "--scheme", "uniform", "--method", "last"]
+    (sound,) = command(tmp_path, frames, *words)
+    (broken,) = command(tmp_path, frames, *words, "--dead-taxels", "2,1")
+    assert sound["frames"] * 0.9 < broken["frames"] < sound["frames"]
+    command(tmp_path, frames, "--m", "1", "--scheme", "fixed", "--dead-taxels", "0,0", code=1)
+    assert "in no frame other than dead taxels were measured: let fixed measure others" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("option", ["--broken-taxels", "--dead-taxels"])
 def test_taxels_outside_of_the_array_are_refused(
     option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

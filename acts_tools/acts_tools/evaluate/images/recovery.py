@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, ArrayGeometry
+from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import last_samples
 from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig
 from acts_core.settings import SettingValue, setting, validate
@@ -265,6 +266,11 @@ def evaluate(
             scored.add(frame, its_task.onset_s)
         notices.end()
         scored.add_notices(notices)
+    if number == 0:
+        raise SettingsError(
+            f"in no frame other than dead taxels were measured: let {task.sampling.scheme} measure others, or correct "
+            "dead_taxels"
+        )
     return {
         "scheme": task.sampling.scheme,
         "m": task.sampling.m,
@@ -282,7 +288,10 @@ def _for_recording(task: Task, which: int, recording: Recording) -> Task:
 
 
 def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
-    """Sample and recover a recording; at least one frame, with the last image held constant."""
+    """Sample and recover a recording; at least one frame, with the last image held constant.
+
+    Frames of dead taxels alone are left out, as the node leaves them out.
+    """
     sampler = sampler_of(task.sampling, task.noise_counts)
     frames = np.ascontiguousarray(recording.frames)
     sampled = np.where(task.are_broken(*frames.shape[1:]), np.uint16(0), frames) if task.broken_taxels else frames
@@ -305,9 +314,14 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
             kept = last_samples(indices)
             measured_s *= len(kept) / len(indices)
             indices, counts = indices[kept], counts[kept]
+        number += 1
+        begin_s = number * task.period_s
         began = time.perf_counter()
         if dead is not None:
-            indices, counts = dead.left_out(indices, counts)
+            try:
+                indices, counts = dead.left_out(indices, counts)
+            except ArrayError:
+                continue
         image = method.step(indices, counts, end_s, measured_s)
         if dead is not None:
             dead.fill(image, method.sigma)
@@ -323,5 +337,3 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
         elif contact_since_s is None:
             contact_since_s = end_s
         yield _Frame(image, end_s, spent_us, scores, errors, in_contact, end_s - (contact_since_s or 0.0))
-        number += 1
-        begin_s = number * task.period_s
