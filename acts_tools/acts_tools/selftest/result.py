@@ -51,7 +51,7 @@ class SelfTest:
 
     @property
     def dead_taxels(self) -> str:
-        """What the parameter of that name of the reconstruction is to be until they are mended; empty: none."""
+        """What the parameter of that name is to be until they are mended; empty: none."""
         dead = np.zeros((self.rows, self.cols), dtype=np.bool_)
         for finding in self.findings:
             if finding.name in _DEAD and finding.level is Level.FAIL:
@@ -69,8 +69,8 @@ class SelfTest:
             if finding.advice:
                 lines.append(f"{'':{_WIDTH + 6}} -> {finding.advice}")
         lines += ["", self.verdict]
-        if self.dead_taxels:
-            lines.append(f"until they are mended, let reconstruction estimate them: dead_taxels: '{self.dead_taxels}'")
+        if dead := self.dead_taxels:
+            lines.append(f"until they are mended, driver and reconstruction do without: dead_taxels: '{dead}'")
         return "\n".join(lines)
 
     def as_json(self) -> dict[str, Any]:
