@@ -7,8 +7,9 @@ In come frames; out comes the `Baseline`, which the reconstruction subtracts. Ke
 """
 
 from acts_driver.baseline.baseline import Baseline, BaselineSource
+from acts_driver.baseline.baseline_config import BaselineConfig
 from acts_driver.baseline.baseline_parameters import BaselineParameters
-from acts_driver.baseline.baseline_tracker import BaselineConfig, BaselineTracker
+from acts_driver.baseline.baseline_tracker import BaselineTracker
 from acts_driver.baseline.kept_baseline import KeptBaseline
 
 __all__ = ["Baseline", "BaselineConfig", "BaselineParameters", "BaselineSource", "BaselineTracker", "KeptBaseline"]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from acts_core.array import COUNT_MAX
 from acts_core.settings import Changeable, default_of, setting
 from acts_core.skin import TAXELS_RULE
-from acts_driver.baseline.baseline_tracker import BaselineConfig
+from acts_driver.baseline.baseline_config import BaselineConfig
 
 
 @dataclass(frozen=True)

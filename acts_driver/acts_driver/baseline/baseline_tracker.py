@@ -8,7 +8,6 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,11 +17,11 @@ from acts_core.array import COUNT_MAX
 from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import NS_PER_S, Pace
-from acts_core.settings import setting, validate
-from acts_core.skin import TAXELS_RULE, Layout, dead_taxels_named, layout
+from acts_core.skin import Layout, dead_taxels_named, layout
 from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
+from acts_driver.baseline.baseline_config import BaselineConfig
 
 _LARGEST_STEP = 0.05
 _HISTORY_STEP_NS = 10 * NS_PER_S
@@ -33,32 +32,6 @@ _LEAST_READINGS = 8
 # A reading farther from the baseline than this is no drift: counts, or standard deviations of the taxel's noise.
 _FREEZE_COUNTS = 20.0
 _FREEZE_SIGMAS = 6.0
-
-
-@dataclass(frozen=True)
-class BaselineConfig:
-    """Settings of `BaselineTracker`.
-
-    The driver sets `touch_counts`, `tau_s` and `dead_taxels` alone; the others are no parameters, and shorter in tests.
-    """
-
-    touch_counts: int = setting(
-        60, "counts above its baseline at which a taxel is pressed", minimum=1, maximum=COUNT_MAX
-    )
-    tare_s: float = setting(
-        0.25, "shortest time a tare is averaged over [s]; up to twice as long", minimum=0.01, maximum=10.0
-    )
-    calibration_blocks: int = setting(
-        8, "shortest untouched time a calibration is made from, in times tare_s", minimum=1, maximum=100
-    )
-    tau_s: float = setting(
-        60.0, "time constant of following the drift of untouched taxels [s]; 0: the baseline stays", minimum=0.0
-    )
-    hold_s: float = setting(1.0, "how long a baseline stays frozen after the touch [s]", minimum=0.0)
-    dead_taxels: str = setting("", f"taxels that are never taken for touched: {TAXELS_RULE}")
-
-    def __post_init__(self) -> None:
-        validate(self)
 
 
 class Drift(NamedTuple):

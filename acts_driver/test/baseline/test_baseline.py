@@ -17,7 +17,7 @@ from acts_core.errors import ArrayError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
 from acts_driver.baseline.baseline import BaselineSource
-from acts_driver.baseline.baseline_tracker import BaselineConfig
+from acts_driver.baseline.baseline_config import BaselineConfig
 
 ROWS, COLS = 6, 5
 SIZE = ROWS * COLS

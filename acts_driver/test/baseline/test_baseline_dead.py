@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from acts_core.errors import CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
 from acts_driver.baseline import BaselineTracker
-from acts_driver.baseline.baseline_tracker import BaselineConfig
+from acts_driver.baseline.baseline_config import BaselineConfig
 from acts_driver.settings import DriverSettings
 
 ROWS, COLS = 8, 6

@@ -15,7 +15,7 @@ from acts_core.errors import CalibrationError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.skin import Layout, layout
 from acts_driver.baseline import BaselineTracker
-from acts_driver.baseline.baseline_tracker import BaselineConfig
+from acts_driver.baseline.baseline_config import BaselineConfig
 
 ROWS, COLS = 8, 6
 SIZE = ROWS * COLS
