@@ -5,14 +5,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from acts_core.array import MAX_SIDE
 from acts_core.runtime import RealtimeConfig
 from acts_core.settings import Changeable, default_of, describe, is_given, refuse_doubles, setting
 from acts_core.skin import dead_taxels_named
-from acts_driver.baseline import BaselineParameters
+from acts_driver.baseline import BaselineConfig, BaselineParameters
 from acts_driver.board import BoardParameters
 from acts_driver.port import SerialSource, Source, check_port
 from acts_driver.protocols import PROTOCOLS, Decoder, OnMessage
@@ -108,6 +108,10 @@ class DriverSettings(RealtimeConfig, BaselineParameters, BoardParameters, Source
         check_port(self.port)
         self.check_board_parameters()
         dead_taxels_named(self.dead_taxels, self.rows, self.cols)  # refuses what are no taxels
+
+    def baseline_config(self) -> BaselineConfig:
+        """See `BaselineParameters.baseline_config`."""
+        return replace(super().baseline_config(), dead_taxels=self.dead_taxels)
 
     @property
     def is_replay(self) -> bool:

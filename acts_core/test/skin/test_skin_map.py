@@ -86,3 +86,23 @@ def test_maps_that_do_not_fit_are_refused() -> None:
     many = dataclasses.replace(GLOVE, patches=GLOVE.patches * 3)
     with pytest.raises(ArrayError, match=r"18 patches.*a board takes 16"):
         SkinMap.of(many)
+
+
+@pytest.mark.parametrize("shape", [layout("square"), GLOVE])
+def test_tracking_does_not_follow_dead_taxels_whatever_they_read(shape: Layout) -> None:
+    dead = np.zeros((32, 32), dtype=bool)
+    dead[3] = True
+    skin = np.asarray(shape.matrix(pressed(shape, (20, 20))))
+    skin[dead] = 900
+
+    def share(skin_map: SkinMap) -> tuple[float, bool]:
+        """Of the samples, those of dead taxels; and whether the press is followed."""
+        sampler = Sampler(SamplingConfig("tracking", threshold_counts=60, m=55), skin_map)
+        frames = [sampler.frame(measure_in(skin))[0] for _ in range(100)][50:]
+        at = int(shape.taxels[20, 20])
+        return float(np.mean([dead.ravel()[frame].mean() for frame in frames])), all(at in frame for frame in frames)
+
+    assert share(SkinMap.of(shape))[0] > 0.2
+    found, is_followed = share(SkinMap.of(shape, dead))
+    assert found < 0.05
+    assert is_followed

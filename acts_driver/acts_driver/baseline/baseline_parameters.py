@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 from acts_core.array import COUNT_MAX
 from acts_core.settings import Changeable, default_of, setting
-from acts_core.skin import TAXELS_RULE
 from acts_driver.baseline.baseline_config import BaselineConfig
 
 
@@ -37,15 +36,6 @@ class BaselineParameters:
         changeable=Changeable.UNCONFIGURED,
     )
 
-    dead_taxels: str = setting(
-        "",
-        f"broken taxels of the matrix, the same as of reconstruction: {TAXELS_RULE}; no reading of theirs is a touch, "
-        "for which ~/calibrate is refused and baselines around stay; empty: none",
-        changeable=Changeable.UNCONFIGURED,
-    )
-
     def baseline_config(self) -> BaselineConfig:
         """The settings of the tracker."""
-        return BaselineConfig(
-            touch_counts=self.calibration_touch_counts, tau_s=self.baseline_tau_s, dead_taxels=self.dead_taxels
-        )
+        return BaselineConfig(touch_counts=self.calibration_touch_counts, tau_s=self.baseline_tau_s)

@@ -29,7 +29,7 @@ class BoardLayout:
         self._link = link
         self._log = log
         self._map: SkinMap | None = None
-        self._map_of: tuple[str, tuple[int, int]] | None = None
+        self._map_of: tuple[str, str, tuple[int, int]] | None = None
         self._reading: Future[SkinMap | None] | None = None
         self._is_told = False
         # Whether the board has, or may have, a layout from here in place of its own.
@@ -57,11 +57,11 @@ class BoardLayout:
         SettingsError, ArrayError
             When the layout cannot be read, or cannot be the board's.
         """
-        name, size = parameters.layout, (state.settings.rows, state.settings.cols)
-        if not name:
+        name, dead, size = parameters.layout, parameters.dead_taxels, (state.settings.rows, state.settings.cols)
+        if not (name or dead):
             return self._give_back(state)
-        if self._map_of != (name, size):
-            self._map_of, self._reading = (name, size), begin(partial(parameters.skin_map, *size))
+        if self._map_of != (name, dead, size):
+            self._map_of, self._reading = (name, dead, size), begin(partial(parameters.skin_map, *size))
         if self._reading is not None:
             if not is_done(self._reading):
                 return state
@@ -72,15 +72,16 @@ class BoardLayout:
                 self._is_told = True
                 self._log(
                     "warning",
-                    f"the board's firmware knows no layouts: it looks for neighbours in the matrix, not as {name} has "
-                    "them; load the firmware of the driver's release onto the board",
+                    f"the board's firmware knows no layouts: {_unknown(name, dead)}; load the firmware of the "
+                    "driver's release onto the board",
                 )
             return state
         if state.map_crc32 != wanted:
             # Before: it may have it though its last reply is lost.
             self._has_arranged = True
             state = self._link.arrange(self._map).state
-            self._log("info", f"the board has taken the layout {name}")
+            taken = [f"the layout {name}"] * bool(name) + ["the dead taxels"] * bool(dead)
+            self._log("info", f"the board has taken {' and '.join(taken)}")
         return state
 
     def _give_back(self, state: BoardState) -> BoardState:
@@ -90,3 +91,9 @@ class BoardLayout:
             self._has_arranged = False
             self._log("info", "the board has its own layout again")
         return state
+
+
+def _unknown(name: str, dead_taxels: str) -> str:
+    """What follows from that a board knows no layouts."""
+    found = [f"it looks for neighbours in the matrix, not as {name} has them"] * bool(name)
+    return ", and ".join([*found, *["it may take dead taxels for touched"] * bool(dead_taxels)])

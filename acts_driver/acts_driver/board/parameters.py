@@ -25,7 +25,7 @@ from acts_core.sampling import (
     with_fields,
 )
 from acts_core.settings import Changeable, setting
-from acts_core.skin import LAYOUTS, layout, layout_path
+from acts_core.skin import LAYOUTS, TAXELS_RULE, dead_taxels_named, layout, layout_path
 from acts_core.wire import LEDS, OUTPUTS, BoardSettings
 
 RATE_MIN_HZ = 1.0
@@ -126,6 +126,12 @@ class BoardParameters(_Own):  # type: ignore[misc]
         f"{', '.join(LAYOUTS)}, or the path of a layout file; empty: the board's own",
         changeable=Changeable.RUNNING,
     )
+    dead_taxels: str = setting(
+        "",
+        f"broken taxels of the matrix, the same as of reconstruction: {TAXELS_RULE}; no reading of theirs is a touch, "
+        "which a board would follow, for which ~/calibrate is refused, and beside which baselines stay; empty: none",
+        changeable=Changeable.UNCONFIGURED,
+    )
     model: str = setting(
         "",
         "dictionary or object library (.npz) to upload to the board; empty or none: the board keeps what it has",
@@ -199,10 +205,12 @@ class BoardParameters(_Own):  # type: ignore[misc]
         Raises
         ------
         SettingsError, ArrayError
-            When the layout cannot be read, is made for another matrix, or has too many patches for a board.
+            When the layout cannot be read, is made for another matrix, as are the dead taxels, or has too many patches
+            for a board.
         """
         arranged = layout(self.layout or "square", rows, cols)
-        return None if arranged.is_matrix else SkinMap.of(arranged)
+        dead = dead_taxels_named(self.dead_taxels, rows, cols)
+        return None if arranged.is_matrix and not dead.any() else SkinMap.of(arranged, dead)
 
     def sampling(self, rows: int, cols: int) -> SamplingConfig:
         """How a board would sample that has the defaults of `SamplingConfig` where nothing is asked.

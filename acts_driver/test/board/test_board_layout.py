@@ -14,7 +14,7 @@ from virtual_board import VirtualBoard
 
 from acts_core.errors import SettingsError
 from acts_core.sampling import SkinMap
-from acts_core.skin import layout
+from acts_core.skin import layout, taxels_named
 from acts_core.wire import Reply
 from acts_driver.board import BoardLink, BoardParameters, BoardSession
 from acts_driver.board.dialogue import NoAnswerError
@@ -54,6 +54,21 @@ def test_a_layout_that_is_no_longer_asked_for_gives_way_to_the_boards_own(host: 
     assert host.link.query().state.map_crc32 == hand.crc32
     assert [line for line in host.log if "layout" in line] == [
         "the board has taken the layout leap_right",
+        "the board has its own layout again",
+    ]
+
+
+def test_a_board_is_told_of_dead_taxels_as_of_places_without_skin(host: Host) -> None:
+    dead = taxels_named("row=3", *SIZE)
+    session = host.start_session(dead_taxels="row=3")
+    assert host.link.query().state.map_crc32 == SkinMap.of(layout("square", *SIZE), dead).crc32
+    session.change(BoardParameters(layout="leap_right", dead_taxels="row=3"))
+    assert host.link.query().state.map_crc32 == SkinMap.of(layout("leap_right"), dead).crc32
+    session.change(BoardParameters())
+    assert host.link.query().state.map_crc32 == 0
+    assert [line for line in host.log if "dead" in line or "layout" in line] == [
+        "the board has taken the dead taxels",
+        "the board has taken the layout leap_right and the dead taxels",
         "the board has its own layout again",
     ]
 
@@ -109,3 +124,22 @@ def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
     assert "knows no layouts" in told[0]
     session.change(BoardParameters(layout="square"))
     assert session.status.problem == ""
+
+
+@pytest.mark.parametrize(
+    ("parameters", "told"),
+    [
+        (BoardParameters(dead_taxels="row=3"), "knows no layouts: it may take dead taxels for touched; load"),
+        (
+            BoardParameters(dead_taxels="3,4", layout="glove"),
+            "not as glove has them, and it may take dead taxels for touched; load",
+        ),
+    ],
+)
+def test_what_follows_where_a_board_knows_no_layouts_is_told(parameters: BoardParameters, told: str) -> None:
+    log: list[str] = []
+    link = LossyWay(SimpleBoard(), []).link
+    session = BoardSession(link, parameters, size=SIZE, log=lambda _, words: log.append(words))
+    session.ask()
+    session.change(parameters)
+    assert sum(told in words for words in log) == 1

@@ -156,9 +156,9 @@ class DeadTaxels:
         """The samples of a frame without those of dead taxels.
 
         The others are taken for evenly spaced, as those of every frame are. So with a dead row of 32 they are dated
-        wrong by up to a thirty-second of the frame's duration. The scheme tracking follows a row that is stuck high,
-        and measures what it follows last: then the others are dated too late, by up to 0.56 of it in a frame of 55
-        samples.
+        wrong by up to a thirty-second of the frame's duration. A board that was not told of a row that is stuck high
+        follows it with tracking, and measures what it follows last: then the others are dated too late, by up to 0.56
+        of it in a frame of 55 samples.
 
         Parameters
         ----------

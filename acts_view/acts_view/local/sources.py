@@ -23,6 +23,7 @@ from acts_core.sampling import SamplingConfig
 from acts_core.skin import layout as layout_of
 from acts_core.words import counted
 from acts_driver.baseline import Baseline, BaselineTracker
+from acts_driver.board import BoardParameters
 from acts_driver.nodes.intake import Intake
 from acts_driver.replay import ReplayOptions, SeekableRecording, open_recording
 from acts_driver.settings import DriverSettings
@@ -365,9 +366,8 @@ def open_recorded(
     def sampling(rows: int, cols: int) -> SamplingConfig:
         return SamplingConfig("tracking", rows, cols, min(_FULL_M, rows * cols), threshold_counts=_TRACKED_COUNTS)
 
-    options = ReplayOptions(
-        path, topic, sampling=sampling, rate_cap_hz=_FULL_HZ, skin_map=DriverSettings(layout=layout).skin_map
-    )
+    skin_map = BoardParameters(layout=layout, dead_taxels=dead_taxels).skin_map
+    options = ReplayOptions(path, topic, sampling=sampling, rate_cap_hz=_FULL_HZ, skin_map=skin_map)
     recording = open_recording(options)
     found_topic = str(getattr(recording, "topic", ""))
     found = found_topic.removesuffix("/samples")

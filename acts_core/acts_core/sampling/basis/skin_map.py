@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.array import MAX_SIDE
 from acts_core.errors import ArrayError
@@ -47,8 +48,14 @@ class SkinMap:
     no_skin: int = NO_PATCH
 
     @classmethod
-    def of(cls, layout: Layout) -> SkinMap:
+    def of(cls, layout: Layout, dead: NDArray[np.bool_] | None = None) -> SkinMap:
         """That of a layout.
+
+        Parameters
+        ----------
+        layout : Layout
+        dead : np.ndarray [shape=(matrix rows, matrix cols), dtype=bool], optional
+            Broken taxels: as if there were no skin, so that none is taken for pressed, whatever it reads.
 
         Raises
         ------
@@ -57,6 +64,8 @@ class SkinMap:
         """
         patches = layout.patch_of.astype(int).ravel()
         bare = patches == NO_PATCH
+        if dead is not None:
+            bare |= layout.picture(dead).ravel().astype(np.bool_)
         n = len(layout.patches) + bool(bare.any())
         if n > MAX_PATCHES:
             raise ArrayError(

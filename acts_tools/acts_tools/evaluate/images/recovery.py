@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from acts_core.array import COUNT_MAX, ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.frames import last_samples
-from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig
+from acts_core.sampling import MEASUREMENT_US, SCHEMES, SamplingConfig, SkinMap
 from acts_core.settings import SettingValue, setting, validate
+from acts_core.skin import layout
 from acts_recon.images import DeadTaxels
 from acts_recon.methods import Method, SkinSetup
 from acts_recon.sparse import Dictionary
@@ -292,9 +293,13 @@ def _play(recording: Recording, task: Task, method: Method) -> Iterator[_Frame]:
 
     Frames of dead taxels alone are left out, as the node leaves them out.
     """
-    sampler = sampler_of(task.sampling, task.noise_counts)
+    size = recording.frames.shape[1:]
+    are_dead = task.are_dead(*size)
+    # As a driver tells its board.
+    skin_map = None if are_dead is None else SkinMap.of(layout("square", *size), are_dead)
+    sampler = sampler_of(task.sampling, task.noise_counts, skin_map)
     frames = np.ascontiguousarray(recording.frames)
-    sampled = np.where(task.are_broken(*frames.shape[1:]), np.uint16(0), frames) if task.broken_taxels else frames
+    sampled = np.where(task.are_broken(*size), np.uint16(0), frames) if task.broken_taxels else frames
     flat = frames.reshape(len(frames), -1)
     truth = np.zeros(flat.shape[1], dtype=np.float32)
     live = recording.live.ravel()

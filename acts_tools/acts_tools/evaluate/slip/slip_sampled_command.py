@@ -143,7 +143,8 @@ def told(
 
     config = SamplingConfig(scheme="tracking", m=m, threshold_counts=50, seed=seed + 1)
     # A driver tells its board how the taxels lie on the skin.
-    sampler = BoardSampler(config, _NOISE_COUNTS, skin_map=None if skin.is_matrix else SkinMap.of(skin))
+    dead = broken.are_dead(skin.matrix_rows, skin.matrix_cols)
+    sampler = BoardSampler(config, _NOISE_COUNTS, skin_map=None if skin.is_matrix else SkinMap.of(skin, dead))
     settings = ReconstructionSettings(
         layout=skin.name,
         noise_counts=known_noise(_NOISE_COUNTS),
