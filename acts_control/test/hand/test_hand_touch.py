@@ -12,8 +12,10 @@ import pytest
 from hand_rig import GRIPPED, TIP, RigidHand, a_hand, a_holding_hand, all_regions, region
 
 from acts_control.hand.control import SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.reflexes import HandState, Reflex, Sensed, Wish
 from acts_control.hand.reflexes.sharp_avoidance import SharpAvoidance, SharpAvoidanceConfig
+from acts_control.hand.reflexes.sphere_balancing import SphereBalancing, SphereBalancingConfig
 from acts_core.skin import RegionContact
 
 pytestmark = pytest.mark.slow
@@ -155,6 +157,27 @@ def test_touch_that_names_other_patches_besides_is_used() -> None:
     hand.step(None)
     assert hand.supervisor.status.refused == 0
     assert hand.supervisor.status.touch_age_s < 0.01
+
+
+def test_the_order_of_patches_in_a_layout_changes_nothing() -> None:
+    """A sphere is moved by the region nearest to each fingertip, whichever patch the layout names first."""
+    palm = LEAP_RIGHT.regions["palm"]
+    beside_m = (palm.centre_m[0] + 0.015, *palm.centre_m[1:])
+    on_palm = region("palm", 1.0, centre_m=beside_m, normal=palm.normal, spread_m=0.004)
+    felt = all_regions(on_palm, *GRIPPED, region("index_medial", 0.8), region("thumb_proximal", 0.8))
+    goals = []
+    for regions in (felt, felt[::-1]):
+        hand = RigidHand(("sphere", SphereBalancing(SphereBalancingConfig())), grip_settle_s=0.02)
+        hand.supervisor.restart(recovered=False)
+        hand.step(GRIPPED)
+        assert hand.supervisor.grasp() == ""
+        assert hand.step(GRIPPED, steps=20) is HandState.HOLDING
+        for _ in range(20):
+            hand.supervisor.touch(regions, hand.now_s, hand.now_s)
+            hand.step(None)
+        assert hand.supervisor.status.active == ("sphere",)
+        goals.append(hand.goal)
+    np.testing.assert_array_equal(goals[0], goals[1])
 
 
 def test_regions_of_which_touch_says_nothing_are_told() -> None:

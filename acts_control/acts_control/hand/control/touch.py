@@ -30,7 +30,7 @@ class HandTouch:
     Attributes
     ----------
     regions : dict of str to RegionContact
-        The newest touch, by the names of the hand's regions.
+        The newest touch, by the names of the hand's regions and in their order.
     unfelt : tuple of str
         Regions of the hand of which it says nothing: nothing is felt there.
     is_new : bool
@@ -69,7 +69,9 @@ class HandTouch:
         if objection:
             return self.refuse(objection)
         if stamp_s > self._stamp_s:
-            self.regions = {one.name: one for one in regions if one.name in self._hand.regions}
+            felt = {one.name: one for one in regions}
+            # In the order of the description, from the root of each finger to its tip: a layout may have any other.
+            self.regions = {name: felt[name] for name in self._hand.regions if name in felt}
             self.unfelt = tuple(name for name in self._hand.regions if name not in self.regions)
             self._stamp_s = stamp_s
             self.is_new = True
