@@ -116,6 +116,38 @@ def test_a_finger_and_something_else_hold(tmp_path: Path, pressed: tuple[str, ..
     assert supervisor.status.reason.startswith(ends)
 
 
+@pytest.mark.parametrize("reflexes", ["none", "sharp slip sphere"])
+def test_a_hand_that_says_nothing_of_its_fingertips_closes_on_what_is_small(tmp_path: Path, reflexes: str) -> None:
+    """A tip can be aimed with only where its last region has a centre and a normal, which the example's have not."""
+    path = tmp_path / "gripper.yaml"
+    palm = "palm: {link: body, role: palm, centre_m: [0, 0, 0.01], normal: [0, 0, 1]}"
+    path.write_text(GRIPPER.replace("regions:\n", f"regions:\n  {palm}\n"))
+    gripper = hand_description(str(path))
+    made = make_reflexes(reflexes, HandReflexesSettings())
+    supervisor = HandSupervisor(HandKinematics(gripper), made, SupervisorConfig())
+    supervisor.restart(recovered=False)
+    q = np.zeros(2)
+    for k in range(1000):
+        # Both jaws touch it at 0.8 rad.
+        pressed = {"palm": 0.5, **{name: 0.8 for name, angle in zip(gripper.names, q, strict=True) if angle > 0.8}}
+        touch = [
+            RegionContact(
+                *(name, one.link, 4 * (name in pressed), pressed.get(name, 0.0), one.centre_m),
+                normal=(0.0, 0.0, 1.0),
+                spread_m=0.003,
+            )
+            for name, one in gripper.regions.items()
+        ]
+        supervisor.touch(touch, k * DT_S, k * DT_S)
+        if k == 1:
+            assert supervisor.grasp() == ""
+        reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
+        q = np.asarray(supervisor.step(reading, q.tolist(), k * DT_S, DT_S))
+        if k > 1 and supervisor.status.state is not HandState.CLOSING:
+            break
+    assert supervisor.status.reason == "gripped by left, right, palm"
+
+
 def test_all_reflexes_bear_a_finger_that_feels_only_where_closing_it_moves_nothing(tmp_path: Path) -> None:
     path = tmp_path / "gripper.yaml"
     palm = "palm: {link: body, role: palm, centre_m: [0, 0, 0], normal: [0, 0, 1]}"

@@ -108,7 +108,7 @@ class Grasp:
         self._closing_s += sensed.dt_s
         forces = {finger: sum(one.force_n for one in sensed.of_finger(finger)) for finger in sensed.hand.fingers}
         gripping = [finger for finger, force in forces.items() if force >= config.grip_force_n]
-        if self._may_aim and self._aim is None:
+        if self._may_aim and self._aim is None and aiming.can_aim(sensed.hand):
             self._aim = self._look(sensed)
         if self._aim is not None:
             steps, is_closing = self._aim.step(sensed, gripping)

@@ -193,7 +193,7 @@ class SphereBalancing(Reflex):
         is_alone = not any(one.in_contact for name, one in sensed.regions.items() if sensed.finger(name))
         # Before the hand is in shape its thumb may come from the side, and push the sphere away.
         state.round_s = state.round_s + sensed.dt_s if sensed.is_shaped and is_round and is_alone else 0.0
-        if state.round_s <= _ROUND_S:
+        if state.round_s <= _ROUND_S or not aiming.can_aim(sensed.hand):
             return None
         # A thumb without skin would not feel what it comes down on.
         felt = aiming.approaches(sensed, ball.foot_m, ball.up)

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_control.hand.description import Region
+from acts_control.hand.description import HandDescription, Region
 from acts_control.hand.reflexes.base import Sensed
 from acts_core.skin import RegionContact
 
@@ -80,6 +80,13 @@ def radius_on_palm(at_m: Array, up: Array, points_m: Sequence[Array]) -> float |
     if not len(heights):
         return None
     return float((heights * (away**2).sum(axis=1)).sum() / (2.0 * (heights**2).sum()))
+
+
+def can_aim(hand: HandDescription) -> bool:
+    """Whether fingertips can be aimed: a finger that does not oppose feels, and of each that feels the pad is known."""
+    tips = {region.finger: region for region in hand.regions.values() if region.finger}
+    comes_over = any(not hand.fingers[finger].opposes for finger in tips)
+    return comes_over and all(any(tip.normal) for tip in tips.values())
 
 
 class Approach(NamedTuple):
