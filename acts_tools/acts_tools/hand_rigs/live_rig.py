@@ -117,6 +117,10 @@ class LiveRig:
                 return True
         return False
 
+    def begin_grasp(self) -> None:
+        """Begin to close the hand, as soon as it feels touch; see `HandRig`."""
+        self.supervisor.grasp()
+
     def grasp(self) -> bool:
         """Close the hand; return whether it then holds something."""
         end_s = self._time_s + _GRASP_S

@@ -39,6 +39,8 @@ _MAX_SPEED_RAD_S = 12.0
 """Largest speed of a goal, as in the node `hand_reflexes` [rad/s]."""
 _GRASP_S = 6.0
 """Longest time in which the hand closes [s]."""
+_FIRST_TOUCH_S = 0.15
+"""By then reflexes at the lowest rate have looked at touch [s]."""
 _KINEMATICS = HandKinematics(LEAP_RIGHT)
 
 
@@ -156,10 +158,17 @@ class HandRig:
                 return True
         return False
 
+    def begin_grasp(self) -> None:
+        """Begin to close the hand, as soon as it has looked at touch."""
+        self.run(0.02)
+        if self.supervisor.status.is_stale:
+            self.run(_FIRST_TOUCH_S, lambda: not self.supervisor.status.is_stale)
+        objection = self.supervisor.grasp()
+        assert not objection, objection
+
     def grasp(self) -> bool:
         """Close the hand; return whether it then holds something."""
-        self.run(0.02)
-        self.supervisor.grasp()
+        self.begin_grasp()
         self.run(_GRASP_S, lambda: self.state in (HandState.HOLDING, HandState.OPEN))
         return self.state is HandState.HOLDING
 

@@ -15,6 +15,7 @@ import yaml
 from ament_index_python.packages import get_package_share_directory
 
 from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.reflexes import HandState
 from acts_recon.settings import ReconstructionSettings
 from acts_sim.hand import HandWorldConfig, PatchTruth
 from acts_tools.cli import main
@@ -51,6 +52,13 @@ def test_the_skin_is_sampled_and_found_pressed_as_the_launch_file_has_it() -> No
     node = ReconstructionSettings(**parameters["reconstruction"])
     recovered = {"touch_counts": options.touch_counts, "noise_counts": options.noise_counts, **asdict(options.slip)}
     assert recovered == {name: getattr(node, name) for name in recovered}
+
+
+@pytest.mark.parametrize("rate_hz", [10.0, 49.0])
+def test_a_hand_with_slow_reflexes_is_asked_to_grasp_once_it_feels_touch(rate_hz: float) -> None:
+    rig = HandRig(HandWorldConfig(object="cylinder", object_held=True), RigOptions(rate_hz))
+    rig.begin_grasp()
+    assert rig.run(0.2, lambda: rig.state is HandState.CLOSING)
 
 
 def test_an_untouched_patch_is_searched_too() -> None:

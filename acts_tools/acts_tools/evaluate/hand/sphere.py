@@ -54,8 +54,7 @@ def _run(one: Run, radius_m: float, name: str) -> Outcome:
     reflexes = ("slip", "sphere", "trap") if one.reflex else ("slip",)
     rig = one.rig(world, one.options(*reflexes, grasp_posture=_POSTURES[name], grip_force_n=0.3))
     outcome = Outcome(kept=False, details={"radius_mm": 1e3 * radius_m, "angle_deg": math.degrees(angle)})
-    rig.run(0.02)
-    rig.supervisor.grasp()
+    rig.begin_grasp()
     # Later, the thumb has closed too far.
     rig.run(_SHAPED_S - rig.behind_s)
     rig.world.put(_OFF_M * math.cos(angle), _OFF_M * math.sin(angle))
