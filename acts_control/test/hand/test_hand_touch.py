@@ -95,6 +95,18 @@ def test_without_touch_nothing_is_grasped_but_the_hand_opens() -> None:
     assert hand.angle("thumb_cmc") > 0.01
 
 
+def test_touch_that_is_old_when_it_comes_is_told_as_such_and_as_missing_once_it_stops() -> None:
+    hand = a_hand()
+    hand.step(None, steps=100)
+    for _ in range(50):
+        hand.supervisor.touch(all_regions(), hand.now_s - 0.2, hand.now_s)
+        hand.step(None)
+    told = "touch is 0.2 s old when it comes, as from a recording or a machine whose clock is behind"
+    assert hand.supervisor.grasp() == told
+    hand.step(None, steps=50)
+    assert hand.supervisor.grasp() == "no touch for 0.4 s: is the skin's topic `regions` published?"
+
+
 @pytest.mark.parametrize(
     "broken",
     [

@@ -59,8 +59,10 @@ class SupervisorStatus:
         Why, in words.
     touch_age_s : float
         Of the newest touch; infinite before the first [s].
+    touch_comes_old_s : float
+        See `HandTouch.comes_old_s` [s].
     is_stale : bool
-        Whether that counts as none.
+        Whether the newest counts as none.
     active : tuple of str
         Reflexes that ask for something, in the order of their priority.
     events : mapping of str to int
@@ -76,6 +78,7 @@ class SupervisorStatus:
     state: HandState = HandState.STOPPED
     reason: str = "not started"
     touch_age_s: float = float("inf")
+    touch_comes_old_s: float = 0.0
     is_stale: bool = True
     active: tuple[str, ...] = ()
     events: Mapping[str, int] = field(default_factory=dict)
@@ -128,8 +131,10 @@ class HandSupervisor:
 
     def grasp(self) -> str:
         """Close until something is gripped, then hold it; why that cannot be, or nothing."""
-        if self.status.is_stale:
-            return f"{no_touch(self.status.touch_age_s)}: is the skin's topic `regions` published?"
+        status = self.status
+        if status.is_stale:
+            advice = "" if status.touch_comes_old_s else ": is the skin's topic `regions` published?"
+            return f"{no_touch(status.touch_age_s, status.touch_comes_old_s)}{advice}"
         self._asked_s = steady_s()
         self._wanted.append("grasp")
         return ""
@@ -192,6 +197,7 @@ class HandSupervisor:
         self.status = replace(
             self.status,
             touch_age_s=age_s,
+            touch_comes_old_s=self._touch.comes_old_s(now_s, self._config.touch_stale_after_s),
             is_stale=age_s > self._config.touch_stale_after_s,
             refused=self._refused,
             refusal=self._touch.refusal,
@@ -251,6 +257,7 @@ class HandSupervisor:
             state=self._state,
             reason=self._reason,
             touch_age_s=age_s,
+            touch_comes_old_s=self._touch.comes_old_s(now_s, stale_after_s),
             is_stale=is_stale,
             active=tuple(active),
             events=self._events(),

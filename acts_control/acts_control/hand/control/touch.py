@@ -44,7 +44,7 @@ class HandTouch:
     def __init__(self, kinematics: HandKinematics) -> None:
         self._kinematics = kinematics
         self._hand = kinematics.hand
-        self._stamp_s = -float("inf")
+        self._stamp_s = self._came_s = -float("inf")
         self.regions: dict[str, RegionContact] = {}
         self.unfelt: tuple[str, ...] = ()
         self.is_new = False
@@ -73,7 +73,7 @@ class HandTouch:
             # In the order of the description, from the root of each finger to its tip: a layout may have any other.
             self.regions = {name: felt[name] for name in self._hand.regions if name in felt}
             self.unfelt = tuple(name for name in self._hand.regions if name not in self.regions)
-            self._stamp_s = stamp_s
+            self._stamp_s, self._came_s = stamp_s, now_s
             self.is_new = True
         return True
 
@@ -86,6 +86,17 @@ class HandTouch:
     def age_s(self, now_s: float) -> float:
         """How old the newest touch is; infinite before the first [s]."""
         return now_s - self._stamp_s
+
+    def comes_old_s(self, now_s: float, stale_after_s: float) -> float:
+        """How old the touch is that comes now, where that counts as none already; 0 where it is not, or none comes [s].
+
+        Parameters
+        ----------
+        now_s, stale_after_s : float
+            As of `take`, and when touch counts as none [s].
+        """
+        old_s = self._came_s - self._stamp_s
+        return old_s if old_s > stale_after_s and now_s - self._came_s <= stale_after_s else 0.0
 
     def _objection(self, region: RegionContact) -> str:
         """Why a region cannot be of this hand's skin, in words; empty where it can."""
@@ -101,8 +112,10 @@ class HandTouch:
         return ""
 
 
-def no_touch(age_s: float) -> str:
-    """That touch is missing, and for how long, in words; infinite before the first [s]."""
+def no_touch(age_s: float, comes_old_s: float = 0.0) -> str:
+    """That touch is missing, and for how long, in words; infinite before the first. See `HandTouch.comes_old_s` [s]."""
+    if comes_old_s:
+        return f"touch is {comes_old_s:.2g} s old when it comes, as from a recording or a machine whose clock is behind"
     return f"no touch for {age_s:.2g} s" if isfinite(age_s) else "no touch so far"
 
 

@@ -215,7 +215,7 @@ class HandReflexesNode(MotorNode):
         }
         refused, self._reported_refused = status.refused - self._reported_refused, status.refused
         if level == OK and status.is_stale:
-            level, words = WARN, f"{no_touch(status.touch_age_s)}; {words}"
+            level, words = WARN, f"{no_touch(status.touch_age_s, status.touch_comes_old_s)}; {words}"
         if status.unfelt:
             level, words = max(level, WARN), f"{_says_nothing(status.unfelt)}; {words}"
         if refused:
