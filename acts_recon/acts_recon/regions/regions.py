@@ -75,7 +75,7 @@ class Regions:
         self._touch_counts = float(touch_counts)
         self._force_n = force_table(response)
         self._sharpness = Sharpness(
-            patches, self._force_n, self._touch_counts, noise_counts, sharpness or SharpnessConfig()
+            patches, self._force_n, self._touch_counts, noise_counts, sharpness or SharpnessConfig(), dead
         )
         self._results = np.zeros((len(patches), kernels.RESULTS))
         watched = [p for p, patch in enumerate(patches) if min(patch.rows, patch.cols) >= SMALLEST_SIDE]

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
 from acts_core.skin import SkinPatch
+from acts_recon.images import DeadTaxels
 from acts_recon.regions import sharpness_kernels as kernels
 
 _DEPTHS_M = np.geomspace(1e-4, 3e-3, 16)
@@ -72,6 +73,8 @@ class Sharpness:
     noise_counts : float
         Standard deviation of a measurement [counts].
     config : SharpnessConfig
+    dead : DeadTaxels, optional
+        Those of the image: what is estimated is as smooth as something blunt, and says nothing here.
     """
 
     def __init__(
@@ -81,10 +84,13 @@ class Sharpness:
         touch_counts: float,
         noise_counts: float,
         config: SharpnessConfig,
+        dead: DeadTaxels | None = None,
     ) -> None:
         self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64)
         self._force_n = force_n
         self._touch_counts, self._noise_counts = touch_counts, noise_counts
+        shape = self._bounds[:, [1, 3]].max(axis=0).tolist()
+        self._is_dead = np.zeros(shape, dtype=np.bool_) if dead is None else dead.in_picture
         self._gain_error = config.sharpness_gain_error
         # Patches that are alike share their tables.
         kinds = [(patch.row_pitch_m, patch.pitch_m, patch.row_radius_m, patch.radius_m) for patch in patches]
@@ -124,6 +130,7 @@ class Sharpness:
             self._noise_counts,
             self._gain_error,
             self._force_n,
+            self._is_dead,
             self._found,
         )
         return self._found

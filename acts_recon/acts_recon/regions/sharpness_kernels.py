@@ -34,6 +34,9 @@ _POINTS = 17
 MOST_PRESSED = 9
 """Where more taxels of the window are pressed there is no tip."""
 
+LEAST_LIVE = 5
+"""With fewer live taxels of the eight about the most pressed one there is no tip: too little is known."""
+
 MISFIT = 40.0
 """A shape that is worse than this (chi squared of 24 taxels) does not fit."""
 
@@ -131,6 +134,7 @@ def find_sharpness(
     noise_counts: float,
     gain_error: float,
     force_n: NDArray[np.float64],
+    is_dead: NDArray[np.bool_],
     sharpness: NDArray[np.float64],
 ) -> None:
     """Compare the contact of every patch with a tip and with what is blunt.
@@ -148,9 +152,12 @@ def find_sharpness(
         Row and column of the taxels about the middle of the window, the nearest first.
     noise_counts, gain_error : float
         Standard deviations: of a measurement [counts], and of what a taxel makes of a force, relative to it.
+    is_dead : np.ndarray [shape=(rows, cols), dtype=bool]
+        Taxels that are estimated from others.
     sharpness : np.ndarray [shape=(patches,), dtype=float64]
         Written: by how much the logarithm of the likelihood of a tip is larger; 0 where it is not, where the most
-        pressed taxel lies at the border of its patch, and where more than `MOST_PRESSED` are pressed.
+        pressed taxel lies at the border of its patch, where more than `MOST_PRESSED` are pressed, and where fewer than
+        `LEAST_LIVE` beside it are live.
     """
     force, variance = np.empty((WINDOW, WINDOW)), np.empty((WINDOW, WINDOW))
     for p in range(len(bounds)):
@@ -159,7 +166,7 @@ def find_sharpness(
         peak, at_row, at_col = np.float64(touch_counts), -1, -1
         for row in range(first_row, end_row):
             for col in range(first_col, end_col):
-                if image[row, col] > peak:
+                if image[row, col] > peak and not is_dead[row, col]:
                     peak, at_row, at_col = np.float64(image[row, col]), row, col
         if not (first_row < at_row < end_row - 1 and first_col < at_col < end_col - 1):
             continue
@@ -172,11 +179,17 @@ def find_sharpness(
                     counts = float(image[row, col])
                     value = min(counts, float(COUNT_MAX)) if counts > 0.0 else 0.0
                     force[i, j] = force_of(value, force_n)
-                    variance[i, j] = ((force_n[int(value) + 1] - force_n[int(value)]) * noise_counts) ** 2
+                    if not is_dead[row, col]:
+                        variance[i, j] = ((force_n[int(value) + 1] - force_n[int(value)]) * noise_counts) ** 2
                     if value > touch_counts:
                         total += force[i, j]
                         pressed += 1
-        if pressed > MOST_PRESSED:
+        live = 0
+        for i in range(REACH - 1, REACH + 2):
+            for j in range(REACH - 1, REACH + 2):
+                live += variance[i, j] >= 0.0
+        # The most pressed one is live itself.
+        if pressed > MOST_PRESSED or live <= LEAST_LIVE:
             continue
         relative = 2.0 * gain_error**2 + variance[REACH, REACH] / force[REACH, REACH] ** 2
         tip = _level(level_force_n[skin_of[p], 0], total)

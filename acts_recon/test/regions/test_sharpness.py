@@ -14,8 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_core.errors import SettingsError
-from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table, layout
+from acts_core.skin import ForceResponse, MeasuredForceResponse, force_table, layout, taxels_named
+from acts_recon.images import DeadTaxels
 from acts_recon.regions import SharpnessConfig
 from acts_recon.regions import sharpness_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness
@@ -92,6 +94,39 @@ def test_what_is_blunt_is_never_taken_for_a_tip(radius_m: float, depth_m: float,
 def test_a_tip_is_told_before_it_is_two_millimetres_deep(at: tuple[float, float]) -> None:
     # Where four taxels meet it feels as something blunt does, and is told later.
     assert any(sharpness().of(felt(0.0015, depth_m, at))[0] > TOLD for depth_m in np.arange(0.0008, 0.002, 0.0002))
+
+
+@cache
+def broken(words: str) -> tuple[DeadTaxels, Sharpness]:
+    """A finger with dead taxels, and its sharpness."""
+    dead = DeadTaxels(taxels_named(words, 8, 8), ArrayGeometry(8, 8))
+    table = force_table(RESPONSE)
+    return dead, Sharpness((FINGER,), table, 8.0, NOISE_COUNTS, SharpnessConfig(), dead)
+
+
+@pytest.mark.parametrize("words", ["row=4", "col=5", "3,5"])
+@settings(max_examples=30, deadline=None)
+@given(at=st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
+def test_a_tip_beside_dead_taxels_is_told(words: str, at: tuple[float, float]) -> None:
+    dead, sharp = broken(words)
+    told = []
+    for depth_m in np.arange(0.0008, 0.0024, 0.0002):
+        image = felt(0.0015, depth_m, at)
+        dead.fill(image, None)
+        told.append(sharp.of(image)[0] > TOLD)
+    assert any(told)
+
+
+@pytest.mark.parametrize("words", ["row=3", "row=4", "col=5", "row=4 col=5", "3,5 2,4", "3,4"])
+@settings(max_examples=60, deadline=None)
+@given(radius_m=st.floats(0.009, 0.05), depth_m=st.floats(0.0, 0.0025), at=places)
+def test_what_is_blunt_is_never_taken_for_a_tip_beside_dead_taxels(
+    words: str, radius_m: float, depth_m: float, at: tuple[float, float]
+) -> None:
+    dead, sharp = broken(words)
+    image = felt(radius_m, depth_m, at)
+    dead.fill(image, None)
+    assert sharp.of(image)[0] < TOLD
 
 
 @pytest.mark.parametrize("radius_m", [0.0015, 0.004, 0.009, 0.02])
