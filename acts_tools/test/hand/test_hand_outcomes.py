@@ -30,7 +30,6 @@ class _Hand:
     def __init__(self, *, grasps: bool) -> None:
         self._grasps = grasps
         self.state = HandState.HOLDING if grasps else HandState.OPEN
-        self.supervisor = SimpleNamespace(grasp=str)
         self.regions = [SimpleNamespace(name=name, in_contact=True) for name in ("palm", "middle_distal")]
         self._object_m = _PALM_M
         disturbances = SimpleNamespace(pull=self._pull)
@@ -39,6 +38,9 @@ class _Hand:
 
     def run(self, *_: Any) -> bool:
         return True
+
+    def begin_grasp(self) -> None:
+        pass
 
     def grasp(self) -> bool:
         return self._grasps
