@@ -57,7 +57,8 @@ class BoardLayout:
         SettingsError, ArrayError
             When the layout cannot be read, or cannot be the board's.
         """
-        name, dead, size = parameters.layout, parameters.dead_taxels, (state.settings.rows, state.settings.cols)
+        name, dead = parameters.layout, parameters.dead_taxels.strip()
+        size = state.settings.rows, state.settings.cols
         if not (name or dead):
             return self._give_back(state)
         if self._map_of != (name, dead, size):
@@ -80,8 +81,8 @@ class BoardLayout:
             # Before: it may have it though its last reply is lost.
             self._has_arranged = True
             state = self._link.arrange(self._map).state
-            taken = [f"the layout {name}"] * bool(name) + ["the dead taxels"] * bool(dead)
-            self._log("info", f"the board has taken {' and '.join(taken)}")
+            taken = (f"the layout {name}" if name else "", "the dead taxels" if dead else "")
+            self._log("info", f"the board has taken {' and '.join(filter(None, taken))}")
         return state
 
     def _give_back(self, state: BoardState) -> BoardState:
@@ -95,5 +96,6 @@ class BoardLayout:
 
 def _unknown(name: str, dead_taxels: str) -> str:
     """What follows from that a board knows no layouts."""
-    found = [f"it looks for neighbours in the matrix, not as {name} has them"] * bool(name)
-    return ", and ".join([*found, *["it may take dead taxels for touched"] * bool(dead_taxels)])
+    neighbours = f"it looks for neighbours in the matrix, not as {name} has them" if name else ""
+    touched = "it may take dead taxels for touched" if dead_taxels else ""
+    return ", and ".join(filter(None, (neighbours, touched)))

@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Broken taxels of a simulated skin, and those that the recovery is told of."""
+"""Broken taxels of a simulated skin, and those that recovery and board are told of."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from acts_recon.images import DeadTaxelsConfig
 
 @dataclass(frozen=True, kw_only=True)
 class BrokenTaxels:
-    """Which taxels are broken, and of which the recovery knows."""
+    """Which taxels are broken, and of which recovery and board know."""
 
     broken_taxels: str = setting("", f"taxels that read 0, but for added noise: {TAXELS_RULE}")
-    dead_taxels: str = setting("", "taxels that the recovery is told to be dead, in the same way")
+    dead_taxels: str = setting("", "taxels that recovery and board are told to be dead, in the same way")
 
     def are_broken(self, rows: int, cols: int) -> NDArray[np.bool_]:
         """`broken_taxels` of a matrix of this size; bool (rows, cols).
