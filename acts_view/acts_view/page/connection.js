@@ -18,7 +18,7 @@ export function socketUrl(path) {
 
 async function isServed() {
   try {
-    return (await fetch("index.html", { method: "HEAD", signal: AbortSignal.timeout(SILENT_MS) })).ok;
+    return (await fetch("index.html", { cache: "no-store", signal: AbortSignal.timeout(SILENT_MS) })).ok;
   } catch {
     return false;
   }
