@@ -53,5 +53,7 @@ def test_modules_to_be_copied_from_pages_have_the_right_types(tmp_path: Path) ->
             paths.append(tmp_path / f"{page.removesuffix('.md')}_{len(paths)}.py")
             paths[-1].write_text(code)
     assert len(paths) >= 7
-    told = subprocess.run(["mypy", *map(str, paths)], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    # What they import is checked by `make lint`, where numpy is new enough for that.
+    command = ["mypy", "--follow-imports=silent", *map(str, paths)]
+    told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert told.returncode == 0, told.stdout + told.stderr

@@ -361,7 +361,7 @@ def test_lerobot_dataset_is_as_its_description_says(bag: Path, tmp_path: Path) -
                 assert values.shape[1:] == tuple(feature["shape"]) or feature["shape"] == [1]
                 while pa.types.is_list(kind) or pa.types.is_fixed_size_list(kind):
                     kind = kind.value_type
-                assert kind.to_pandas_dtype() == np.dtype(feature["dtype"])
+                assert kind == pa.from_numpy_dtype(np.dtype(feature["dtype"]))
                 assert np.shape(statistics[name]["mean"]) == tuple(feature["shape"])
                 assert np.shape(episode[f"stats/{name}/q99"]) == tuple(feature["shape"])
         assert (episode["episode_index"], episode["tasks"], episode["length"]) == (number, ["press"], table.num_rows)
