@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
-from acts_core.skin import Layout, RegionContact, Response, Vector, force_table
+from acts_core.skin import Layout, RegionContact, Response, SkinPatch, Vector, force_table
 from acts_recon.images import NOISE_COUNTS, DeadTaxels, require_recovered
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
@@ -25,7 +26,7 @@ _EARLY = 0.9
 class Regions:
     """Finds the contact on each patch of a layout, how it moves, and whether it slips.
 
-    Motion and slip of patches of fewer than 3 x 3 taxels stay 0.
+    Motion and slip of patches of fewer than 3 x 3 taxels stay 0. A patch of which all taxels are dead is left out.
 
     Parameters
     ----------
@@ -61,12 +62,12 @@ class Regions:
         sharpness: SharpnessConfig | None = None,
         dead: DeadTaxels | None = None,
     ) -> None:
-        patches = layout.patches
+        patches = layout.patches if dead is None else _with_live_taxels(layout.patches, dead)
         self._shape = (layout.rows, layout.cols)
         self._sigmas = (SlipConfig() if slip is None else slip).slip_sigmas
         self._untouched = [RegionContact(patch.name, patch.link) for patch in patches]
         self._regions = list(self._untouched)
-        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64)
+        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64).reshape(-1, 4)
         self._points_m = np.zeros((*self._shape, 3))
         self._normals = np.zeros((*self._shape, 3))
         for patch in patches:
@@ -119,7 +120,7 @@ class Regions:
         Returns
         -------
         list of RegionContact
-            Of every patch, in the layout's order; overwritten by the next call, but not its entries.
+            Of every patch that can feel, in the layout's order; overwritten by the next call, but not its entries.
 
         Raises
         ------
@@ -190,3 +191,7 @@ class Regions:
             cols * col_m[1] + rows * row_m[1],
             cols * col_m[2] + rows * row_m[2],
         )
+
+
+def _with_live_taxels(patches: Sequence[SkinPatch], dead: DeadTaxels) -> tuple[SkinPatch, ...]:
+    return tuple(patch for patch in patches if not patch.of(dead.in_picture).all())

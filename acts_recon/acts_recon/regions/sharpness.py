@@ -86,10 +86,10 @@ class Sharpness:
         config: SharpnessConfig,
         dead: DeadTaxels | None = None,
     ) -> None:
-        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64)
+        self._bounds = np.array([patch.bounds for patch in patches], dtype=np.int64).reshape(-1, 4)
         self._force_n = force_n
         self._touch_counts, self._noise_counts = touch_counts, noise_counts
-        shape = self._bounds[:, [1, 3]].max(axis=0).tolist()
+        shape = self._bounds[:, [1, 3]].max(axis=0, initial=0).tolist()
         self._is_dead = np.zeros(shape, dtype=np.bool_) if dead is None else dead.in_picture
         self._gain_error = config.sharpness_gain_error
         # Patches that are alike share their tables.

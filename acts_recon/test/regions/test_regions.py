@@ -15,8 +15,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as stn
 from numpy.typing import NDArray
 
+from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.skin import ForceResponse, Layout, RegionContact, SkinPatch, layout
+from acts_recon.images import DeadTaxels
 from acts_recon.regions import Regions
 from acts_recon.settings import ReconstructionSettings
 
@@ -219,6 +221,22 @@ def test_patches_too_small_for_motion_have_their_contact_all_the_same() -> None:
     (region,) = Regions(skin, RESPONSE).step(0.0, image)
     assert region.centre_m == pytest.approx((-0.003, 0.0, 0.0))
     assert region.active_taxels == 2
+
+
+def test_a_patch_of_which_all_taxels_are_dead_is_left_out() -> None:
+    names = [patch.name for patch in HAND.patches]
+    for gone in (["index_distal", "palm"], names):
+        in_picture = np.zeros((HAND.rows, HAND.cols), dtype=np.bool_)
+        for patch in HAND.patches:
+            patch.of(in_picture)[:] = patch.name in gone
+        # One dead row leaves its patch in.
+        thumb = next(patch for patch in HAND.patches if patch.name == "thumb_distal")
+        thumb.of(in_picture)[3] = True
+        in_matrix = np.asarray(HAND.matrix(in_picture), dtype=np.bool_)
+        dead = DeadTaxels(in_matrix, ArrayGeometry(HAND.rows, HAND.cols), HAND)
+        regions = Regions(HAND, RESPONSE, dead=dead, slip_rate_hz=0.0).step(0.0, press(thumb, 4.0, 4.0))
+        assert [region.name for region in regions] == [name for name in names if name not in gone]
+        assert [region.name for region in regions if region.in_contact] == ["thumb_distal"][: len(regions)]
 
 
 def test_images_of_another_kind_are_refused() -> None:
