@@ -274,5 +274,7 @@ def _in_one(frames: tuple[PlacedFrame, ...]) -> _Window:
 def _rounds(sizes: NDArray[np.intp], places: NDArray[np.uint16]) -> float:
     """How often a frame has each of its taxels, at least; of frames of these sizes."""
     frame = np.repeat(np.arange(sizes.size), sizes)
-    distinct = np.bincount(np.unique(frame * 2**16 + places) // 2**16, minlength=sizes.size)
+    # np.unique takes five times as long.
+    ordered = np.sort(frame * 2**16 + places)
+    distinct = np.bincount(ordered[np.diff(ordered, prepend=-1) > 0] // 2**16, minlength=sizes.size)
     return float((sizes / distinct).min())
