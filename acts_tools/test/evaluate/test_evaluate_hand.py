@@ -107,6 +107,9 @@ def test_a_cylinder_that_is_pulled_by_twice_its_weight_is_held() -> None:
     assert outcome.noticed_ms is not None
     assert outcome.offset_mm is not None
     assert outcome.offset_mm < 10.0
+    # It sticks to the skin before foam and fingers have come to rest.
+    assert outcome.stopped_ms is not None
+    assert 0.0 < outcome.details["stopped_sliding_ms"] < outcome.stopped_ms
 
 
 def test_an_object_that_the_fingers_yield_to_moves_farther_than_it_slides() -> None:

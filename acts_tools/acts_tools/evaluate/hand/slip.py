@@ -24,20 +24,22 @@ _NOTICEABLE_M = 0.0002
 _ALLOWED_M = 0.003
 _KEPT_M = 0.02
 _NOTICED_MS = 15.0
-# Below this speed the object counts as at rest: the foam still yields slightly.
+# Below this speed the object counts as at rest, and as not sliding: the foam still yields slightly.
 _STANDS_M_S = 0.010
 
 
 @dataclass
 class _Pull:
-    """When a pulled object moved, slid, was noticed and stood again, if at all [s]; and how far it went and slid [m].
+    """When a pulled object moved, slid, was noticed, stuck and stood again [s]; how far it went and slid [m].
 
-    An object moves without sliding where foam and fingers give way, and a touch that moves along cannot tell.
+    An object moves without sliding where foam and fingers give way, and a touch that moves along cannot tell. So it
+    sticks to the skin again before it stands.
     """
 
     moved_s: float | None = None
     slid_s: float | None = None
     noticed_s: float | None = None
+    stuck_s: float | None = None
     stood_s: float | None = None
     farthest_m: float = 0.0
     slid_m: float = 0.0
@@ -59,6 +61,9 @@ def run(one: Run) -> Outcome:
     if noticed_after_sliding_ms is not None:
         outcome.details["noticed_after_sliding_ms"] = noticed_after_sliding_ms
     outcome.stopped_ms = between_ms(pull.noticed_s, pull.stood_s)
+    stopped_sliding_ms = between_ms(pull.noticed_s, pull.stuck_s)
+    if stopped_sliding_ms is not None:
+        outcome.details["stopped_sliding_ms"] = stopped_sliding_ms
     outcome.details["max_grip_n"] = _grip_n(rig)
     noticed_well = pull.moved_s is None or (outcome.noticed_ms is not None and outcome.noticed_ms <= _NOTICED_MS)
     outcome.ok = outcome.kept and pull.farthest_m < _ALLOWED_M and (noticed_well or not one.reflex)
@@ -73,7 +78,8 @@ def _watch_pull(one: Run, rig: Any, load: float, slips_before: int) -> _Pull:
     while rig.time_s < begin_s + _WATCHED_S:
         rig.step()
         truth = rig.world.truth
-        pull.slid_m += sliding_m_s(truth) * (rig.time_s - before_s)
+        slides_m_s = sliding_m_s(truth)
+        pull.slid_m += slides_m_s * (rig.time_s - before_s)
         before_s = rig.time_s
         if pull.slid_s is None and pull.slid_m > _NOTICEABLE_M:
             pull.slid_s = rig.time_s
@@ -85,6 +91,8 @@ def _watch_pull(one: Run, rig: Any, load: float, slips_before: int) -> _Pull:
             pull.moved_s = rig.time_s
         if pull.noticed_s is None and one.reflex and rig.reflexes["slip"].events > slips_before:
             pull.noticed_s = rig.time_s
+        if pull.noticed_s is not None and pull.stuck_s is None and slides_m_s < _STANDS_M_S:
+            pull.stuck_s = rig.time_s
         if pull.noticed_s is not None and pull.stood_s is None and speed_m_s < _STANDS_M_S:
             pull.stood_s = rig.time_s
         if truth.object_lost:
