@@ -304,7 +304,8 @@ class HandReflexesNode(MotorNode):
 
 def _says_nothing(unfelt: Sequence[str]) -> str:
     return (
-        f"touch says nothing of {', '.join(unfelt)}: the hand feels nothing there; does the layout name these patches?"
+        f"touch says nothing of {', '.join(unfelt)}: the hand feels nothing there; does the layout name these patches, "
+        "and has each of them a taxel that is not dead?"
     )
 
 
