@@ -18,6 +18,7 @@ from child_process import Process
 from control_rig import Bench, RollingBall, SimulatedRobot, node_command
 from waiting import wait_for
 
+from acts_control.robots.base import SafetyConfig
 from acts_core.robots import ur5e
 from acts_msgs.msg import BalanceStatus
 
@@ -142,8 +143,10 @@ def test_touch_that_stops_or_turns_nan_and_a_ball_that_is_lost(tmp_path: Path) -
         with balancing_process(tmp_path, robot, 66):
             bench.await_phase(BALANCING)
             ball.touched = False
-            bench.await_phase(WAITING)
-            # Where this process stands still for a moment, it sends no touch, and the controller says so meanwhile.
+            waiting = bench.await_phase(WAITING)
+            # Where this process stood still, it has sent no touch, and the controller waits for that at first.
+            is_stale = waiting.touch_age > SafetyConfig().touch_stale_after_s
+            assert waiting.reason.endswith("waiting for touch" if is_stale else "waiting for a ball")
             wait_for(lambda: bench.statuses[-1].reason.endswith("waiting for a ball"), "a reason")
             wait_for(lambda: tilt(robot) < 1e-3, "a level plate")
             assert robot.state()["runtime"] == "PLAYING"
