@@ -246,6 +246,24 @@ def test_a_plate_beyond_a_new_limit_brakes_and_comes_back(at: float) -> None:
     assert path[-1] == pytest.approx(0.03, abs=1e-6)
 
 
+def test_a_larger_limit_is_made_use_of() -> None:
+    limiter = TiltLimiter(LimiterConfig(max_tilt_rad=0.03))
+    for limit in (0.03, 0.08):
+        limiter.config = LimiterConfig(max_tilt_rad=limit)
+        for _ in range(200):
+            tilt = limiter.step(0.3, 0.4, 0.004)
+        assert tilt == pytest.approx((0.6 * limit, 0.8 * limit), abs=1e-6)
+
+
+@given(TARGETS, st.floats(0.005, 0.1), st.sampled_from([0.002, 0.004, 0.008]))
+def test_a_smaller_limit_that_is_kept_once_is_kept(targets: list[tuple[float, float]], limit: float, dt: float) -> None:
+    limiter = TiltLimiter(LimiterConfig())
+    limiter.config = LimiterConfig(max_tilt_rad=limit)
+    for target in targets:
+        for _ in range(5):
+            assert hypot(*limiter.step(*target, dt)) <= limit * (1 + 1e-9)
+
+
 @pytest.mark.parametrize("bad", [float("nan"), float("inf"), float("-inf")])
 def test_a_target_that_is_not_finite_means_level(bad: float) -> None:
     limiter = TiltLimiter(LimiterConfig())

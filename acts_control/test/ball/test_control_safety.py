@@ -53,6 +53,11 @@ def test_the_gate_stops_what_must_not_reach_the_robot(tilt: tuple[float, float],
     assert gate.fault((0.02, 0.0), 2 * DT) == ""
 
 
+def test_the_first_command_counts_from_level() -> None:
+    gate = TiltGate(TiltLimits(max_tilt_rad=0.1, max_tilt_rate_rad_s=1.0))
+    assert "jumps by 0.0500 rad, allowed is 0.0062" in gate.fault((0.05, 0.0), DT)
+
+
 def test_where_limits_are_tightened_the_gate_lets_the_plate_come_back() -> None:
     gate = TiltGate(TiltLimits(max_tilt_rad=0.1, max_tilt_rate_rad_s=1.0))
     for tilt_x in (0.05, 0.1):
