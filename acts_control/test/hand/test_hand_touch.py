@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from hand_rig import GRIPPED, TIP, RigidHand, a_hand, a_holding_hand, all_regions, region
+from hand_rig import DT_S, GRIPPED, TIP, RigidHand, a_hand, a_holding_hand, all_regions, region
 
 from acts_control.hand.control import SupervisorConfig
 from acts_control.hand.description import LEAP_RIGHT
@@ -137,8 +137,11 @@ def test_touch_that_names_a_region_twice_counts_as_not_come() -> None:
 
 def test_old_touch_is_not_taken_for_new() -> None:
     hand = a_holding_hand()
-    hand.supervisor.touch(all_regions(TIP), hand.now_s - 1.0, hand.now_s)
-    assert hand.step(GRIPPED) is HandState.HOLDING
+    late_s = hand.now_s - 0.05
+    for _ in range(5):
+        late_s += DT_S
+        hand.supervisor.touch(all_regions(TIP), late_s, hand.now_s)
+        assert hand.step(None) is HandState.HOLDING
 
 
 def test_patches_that_the_hand_does_not_have_are_left_out() -> None:

@@ -85,6 +85,11 @@ def test_goals_are_finite_within_limits_and_near_their_joints_whatever_is_asked(
         assert abs(angle - joint.clipped(q)) <= 0.1 / joint.gain_scale + 1e-12
 
 
+def test_a_goal_gets_as_far_ahead_of_a_joint_that_is_blocked_as_it_may() -> None:
+    ahead = goals([Wish(np.full(16, 20.0), "", at_once=True)], goal=0.42, max_lead_rad=0.1) - 0.3
+    assert ahead == pytest.approx([0.1 / joint.gain_scale for joint in LEAP_RIGHT.joints])
+
+
 def test_a_motor_at_its_current_limit_is_closed_no_further_but_may_open() -> None:
     closing, opening = Wish(np.ones(16), "", at_once=True), Wish(-np.ones(16), "", at_once=True)
     assert goals([closing], current=349.0) == pytest.approx(np.full(16, 0.3))
