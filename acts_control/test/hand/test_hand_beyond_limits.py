@@ -55,3 +55,18 @@ def test_a_joint_that_is_nearest_to_the_limit_beyond_which_it_is_said_to_be_is_b
         assert abs(bus.sent[-1][0]) < abs(q_rad)
     finally:
         loop.close()
+
+
+def test_only_joints_that_are_beyond_a_limit_are_told_to_be_brought_back() -> None:
+    bus, told = MadeBus(), []
+    # A joint at its limit may read as a little beyond.
+    bus.q_rad = bus.moves_to_rad = [2.1, 2.01, 1.5, *[0.0] * 13]
+    loop = HandLoop(HAND, bus, HandLoopConfig(connect_retry_s=0.05), lambda _level, sentence: told.append(sentence))
+    loop.launch()
+    try:
+        wait_for(lambda: len(bus.sent) > 2, lambda: f"goals, {loop.status}")
+        assert [sentence for sentence in told if "brought back" in sentence] == [
+            f"{HAND.joints[0].name} is at 2.10 rad, beyond its limits of -2 to 2: it is brought back at 0.5 rad/s"
+        ]
+    finally:
+        loop.close()
