@@ -135,6 +135,7 @@ class FootTracker:
 
     def _begin_anew(self) -> None:
         self._phase = _Phase.UNKNOWN
+        self._begun_s = math.inf
         self._last: _Bin | None = None
         self._rise: _Crossing | None = None
         self._lifted_at: _Crossing | None = None
@@ -181,6 +182,7 @@ class FootTracker:
         if last is None or now.time_s - last.time_s > self.config.longest_gap_s:
             told = self._confirmed(math.inf)
             self._begin_anew()
+            self._begun_s = now.time_s
             last = now
         self._last = now
         if self._phase is not _Phase.LOADED:
@@ -199,7 +201,11 @@ class FootTracker:
                 self._lightest = now
             return self._confirmed(now.time_s)
         if self._phase is _Phase.LIFTED and self._rise is None:
-            self._rise = _crossing(last, now, self.config.lifted_share, loads)
+            if self._lifted_at is None and now.time_s - self._begun_s < self.config.shortest_s:
+                # A foot that stands seems lifted until its skin was measured everywhere, right after the start.
+                self._phase = _Phase.UNKNOWN
+            else:
+                self._rise = _crossing(last, now, self.config.lifted_share, loads)
         # A swing ends where the force begins to rise, however slowly it does.
         told = self._confirmed(now.time_s if self._rise is None else self._rise.time_s)
         self._keep(now)

@@ -145,6 +145,21 @@ def test_steps_around_a_gap_are_left_out() -> None:
     assert steps[known[1]].strike_s > begin_s + 0.8
 
 
+@pytest.mark.parametrize("share", [0.35, 1.0])
+@pytest.mark.parametrize("is_paused", [False, True])
+def test_a_foot_that_stands_where_its_samples_begin_has_made_no_step(is_paused: bool, share: float) -> None:
+    """A skin reads 0 until it was measured everywhere: as its board begins, and after a pause."""
+    time_s = times_s(1000.0)
+    begin_s = FIRST_S + 4 * STRIDE_S + 0.4
+    since_s = time_s - begin_s
+    force = np.minimum(walked(time_s), np.abs(since_s) / 0.05)
+    # A foot among two carries less than the one that pushes off.
+    force = np.where((since_s >= 0.0) & (since_s < 0.1), np.minimum(force, share), force)
+    keep = (time_s >= begin_s) | ((time_s < begin_s - 0.6) & is_paused)
+    strikes_s = [FIRST_S + 0.025 + STRIDE_S * number for number in range(9) if number > 4 or (number < 4 and is_paused)]
+    assert [step.strike_s for step in steps_of(time_s[keep], force[keep])] == pytest.approx(strikes_s, abs=0.003)
+
+
 def test_samples_that_are_no_numbers_or_come_late_are_left_out() -> None:
     tracker, time_s = FootTracker(), times_s(50.0)
     steps: list[Step] = []
