@@ -14,12 +14,12 @@ footprint is not quite that.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_recon.impacts.footprint_model import VOLUME, Array, FootprintModel, minimise
+from acts_recon.impacts.footprint_model import VOLUME, Array, FootprintModel, minimise, spread_points
 
 FORCE_SD = 0.2
 """Of a fitted footprint's force, as a share: the taxels' sensitivities, and how far it is from the model."""
@@ -77,6 +77,10 @@ class Footprint:
         How often a taxel was measured with a fifth of the largest force or more, in the mean of those that were.
     is_long : bool
         Whether it is longer than wide.
+    width_m : np.ndarray [shape=(n,), dtype=float64]
+        As `force_n`, see `footprint_model` [m].
+    stretch : np.ndarray [shape=(2,), dtype=float64]
+        p and q, see `footprint_model`; 0 of a round one.
     """
 
     time_s: Array
@@ -90,28 +94,55 @@ class Footprint:
     explains_samples: bool = True
     strong_samples: float = 1.0
     is_long: bool = False
+    width_m: Array = field(default_factory=lambda: np.zeros(0))
+    stretch: Array = field(default_factory=lambda: np.zeros(2))
 
-    def is_better_than_images(self, peak_n: float, peak_sd_n: float) -> bool:
+    def is_better_than_images(self, own_n: float, peak_n: float, peak_sd_n: float) -> bool:
         """Whether it tells more of what pressed than images do.
 
         A footprint that passes beside an edge explains that in part, with any force and place.
 
         Parameters
         ----------
+        own_n : float
+            Its largest force on the patch, see `within` [N].
         peak_n, peak_sd_n : float
-            The largest force in the images, and its standard deviation [N].
+            That in the images, and its standard deviation [N].
         """
+        if own_n <= 0:
+            return False
         if not self.explains_samples or self.strong_samples < _OFTEN:
             return self.explains_samples
-        own_n = float(self.force_n.max())
         if self.is_long:
             return peak_n / _LONG_APART <= own_n <= peak_n * _LONG_APART
         return own_n - peak_n <= _MOST_ABOVE_SD * peak_sd_n
 
-    def path(self, time_s: Array) -> tuple[Array, Array]:
-        """x and y of the centre at these times [m]; held before the first of its force and after the last."""
-        since_s = np.clip(time_s, self.time_s[0], self.time_s[-1]) - self.middle_s
-        return self.x_m + self.velocity_m_s[0] * since_s, self.y_m + self.velocity_m_s[1] * since_s
+    def within(self, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Array, Array, Array]:
+        """What it presses of a patch: a body beyond the border presses nothing there.
+
+        Parameters
+        ----------
+        x_m, y_m : (float, float)
+            From where to where the patch reaches [m].
+
+        Returns
+        -------
+        force_n, x_m, y_m : np.ndarray [shape=(n,), dtype=float64]
+            Force on the patch, and its centre [N, m]; without force the place on the patch that is nearest.
+        """
+        dx, dy, weight = spread_points(self.stretch)
+        since_s = (self.time_s - self.middle_s)[:, None]
+        at_x = self.x_m + self.velocity_m_s[0] * since_s + self.width_m[:, None] * dx
+        at_y = self.y_m + self.velocity_m_s[1] * since_s + self.width_m[:, None] * dy
+        inside = (x_m[0] <= at_x) & (at_x <= x_m[1]) & (y_m[0] <= at_y) & (at_y <= y_m[1])
+        share = np.where(inside, weight, 0.0)
+        whole = share.sum(axis=1)
+        is_felt = whole > 0
+        centres = []
+        for at, limits in ((at_x, x_m), (at_y, y_m)):
+            felt = (share * at).sum(axis=1) / np.where(is_felt, whole, 1.0)
+            centres.append(np.where(is_felt, felt, np.clip(at.mean(axis=1), *limits)))
+        return self.force_n * whole, centres[0], centres[1]
 
     @property
     def direction_sd_rad(self) -> float:
@@ -195,6 +226,8 @@ def fit_footprint(
         wider <= _WIDEST and (misfit <= _MOST_MISFIT or measured_share < _MEASURED_SHARE),
         strong.size / np.unique(strong).size,
         model.is_long,
+        1e-3 * width_mm,
+        model.stretch_of(state),
     )
 
 

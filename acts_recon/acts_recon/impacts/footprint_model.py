@@ -42,6 +42,8 @@ _AMPLITUDE_SD, _WIDTH_SD = 0.7, 0.15
 _STRETCH_SD = 1.0
 # The samples' spread across is taken to be at least this share of that along, both as squares.
 _LEAST_SPREAD = 1e-3
+# Points of a footprint along each axis, and how many widths away the last are: beyond lies little of its force.
+_POINTS, _FARTHEST = 41, 2.6
 # sinh(s) / s and its derivative are series below.
 _LEAST_STRETCH = 1e-3
 
@@ -109,6 +111,10 @@ class FootprintModel:
         """Whether the footprint may be longer than wide."""
         return self._stretch.start < self._stretch.stop
 
+    def stretch_of(self, state: Array) -> Array:
+        """p and q of a state; 0 of a round footprint."""
+        return state[self._stretch].copy() if self.is_long else np.zeros(2)
+
     def residuals(self, state: Array) -> Array:
         """Of the samples, then of what is known beforehand, as shares of their standard deviations."""
         return np.concatenate(((self._force(state)[0] - self.force) / self.sd, self.prior @ (state - self.before)))
@@ -150,6 +156,30 @@ class FootprintModel:
         of_p, of_q = dx * dx - dy * dy, 2.0 * dx * dy
         both = sinh_share * (dx * dx + dy * dy) - slope * (p * of_p + q * of_q)
         return np.column_stack((p * both - sinh_share * of_p, q * both - sinh_share * of_q))
+
+
+def spread_points(stretch: Array) -> tuple[Array, Array, Array]:
+    """Points all over a footprint of the width 1, and which share of its force each stands for.
+
+    Parameters
+    ----------
+    stretch : np.ndarray [shape=(2,), dtype=float64]
+        p and q.
+
+    Returns
+    -------
+    dx, dy, share : np.ndarray [shape=(n,), dtype=float64]
+        How far each is from the centre. The shares add up to 1.
+    """
+    along = np.linspace(-_FARTHEST, _FARTHEST, _POINTS)
+    u, v = (axis.ravel() for axis in np.meshgrid(along, along))
+    share = np.exp(-0.5 * (u * u + v * v) ** _POWER)
+    p, q = stretch.tolist()
+    # The inverse root of E is exp(S / 2).
+    cosh, sinh_share, _ = _hyperbolic(math.hypot(p, q) / 2.0)
+    dx = cosh * u + sinh_share * (p * u + q * v) / 2.0
+    dy = cosh * v + sinh_share * (q * u - p * v) / 2.0
+    return dx, dy, share / share.sum()
 
 
 def _hyperbolic(s: float) -> tuple[float, float, float]:

@@ -72,23 +72,26 @@ class Reports:
             Whether it is an impact that stays.
         """
         is_short = stays or touch.last_s - touch.began_s <= self._config.impact_longest_s
-        course = touch.path()
-        found = self._footprint(touch, touches, *course) if is_short else None
+        time_s, force_n, path_x_m, path_y_m = touch.path()
+        found = self._footprint(touch, touches, time_s, force_n, path_x_m, path_y_m) if is_short else None
         x_m, y_m, peak_n, peak_sd_n = touch.peak_x_m, touch.peak_y_m, touch.peak_n, touch.peak_sd_n
-        fitted = found if found is not None and found.is_better_than_images(peak_n, peak_sd_n) else None
-        if fitted is not None:
-            # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
-            path_m = self._samples.on_patch(touch.patch, *fitted.path(fitted.time_s))
-            course = fitted.time_s, fitted.force_n, *path_m
-            top = int(fitted.force_n.argmax())
-            peak_n, x_m, y_m = (float(one[top]) for one in course[1:])
-            peak_sd_n = FORCE_SD * peak_n
-        time_s, force_n, path_x_m, path_y_m = course
-        force = time_s, force_n
+        force: Force = time_s, force_n
+        fitted: Footprint | None = None
+        if found is not None:
+            on_patch = found.within(*self._samples.reach_of(touch.patch))
+            top = int(on_patch[0].argmax())
+            own_n, own_x_m, own_y_m = (float(one[top]) for one in on_patch)
+            if found.is_better_than_images(own_n, peak_n, peak_sd_n):
+                # Between taxels that were just measured an image is a guess, which is far off where taxels saturate.
+                fitted, time_s = found, found.time_s
+                force_n, path_x_m, path_y_m = on_patch
+                # That of the whole goes with its depth, by which it is followed to 0.
+                force = found.time_s, found.force_n
+                peak_n, x_m, y_m, peak_sd_n = own_n, own_x_m, own_y_m, FORCE_SD * own_n
         onset_s, onset_sd_s = self._onset(touch, force, found, is_short)
         end_s = touch.last_s if stays else self._last_touched(touch, force if is_short else None, period_s)
         kind = Kind.IMPACT if stays else touch.kind(onset_s, end_s, frame_s, self._config)
-        impulse_n_s = impulse_of(force, onset_s, end_s if is_short else float(time_s[-1]))
+        impulse_n_s = impulse_of((time_s, force_n), onset_s, end_s if is_short else float(time_s[-1]))
         told = Impact(
             number=touch.number,
             is_over=True,

@@ -157,13 +157,13 @@ class RecentSamples:
         is_near: NDArray[np.bool_] = np.hypot(self._x_m[taxel] - x_m, self._y_m[taxel] - y_m) <= reach_m
         return is_near & (self._patch_of[taxel] == patch)
 
-    def on_patch(self, patch: int, x_m: Array, y_m: Array) -> tuple[Array, Array]:
-        """The nearest places on a patch: what lies beyond its border is another patch, or nothing [m]."""
+    def reach_of(self, patch: int) -> tuple[tuple[float, float], tuple[float, float]]:
+        """From where to where a patch reaches along x and along y: what lies beyond is another one, or nothing [m]."""
         top, bottom, left, right = self._rectangles[patch].tolist()
         geometry = self._geometry
         return (
-            np.clip(x_m, geometry.x_m(left - 0.5), geometry.x_m(right - 0.5)),
-            np.clip(y_m, geometry.y_m(bottom - 0.5), geometry.y_m(top - 0.5)),
+            (float(geometry.x_m(left - 0.5)), float(geometry.x_m(right - 0.5))),
+            (float(geometry.y_m(bottom - 0.5)), float(geometry.y_m(top - 0.5))),
         )
 
     def untouched_s(self, x_m: float, y_m: float, patch: int, first_s: float, last_s: float) -> Array:

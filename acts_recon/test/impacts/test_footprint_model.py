@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 
-from acts_recon.impacts.footprint_model import VOLUME, FootprintModel, minimise
+from acts_recon.impacts.footprint_model import VOLUME, FootprintModel, minimise, spread_points
 
 NODES = 5
 
@@ -63,3 +63,16 @@ def test_of_a_round_footprint_the_long_one_is_round() -> None:
     force_n = np.exp(-((x_mm**2 + y_mm**2) ** 1.5) / 2 / 10.0**3)
     model = FootprintModel(time_ms, x_mm, y_mm, force_n, np.full(x_mm.size, 0.01), NODES, is_long=True)
     assert math.hypot(*minimise(model, model.start())[-2:]) < 1e-3
+
+
+@pytest.mark.parametrize("angle_rad", [0.0, 0.6, 1.4, 2.6])
+@pytest.mark.parametrize(("length", "width"), [(2.0, 0.5), (1.0, 1.0)])
+def test_points_all_over_a_footprint_hold_its_force(angle_rad: float, length: float, width: float) -> None:
+    s = math.log(length / width)
+    dx, dy, share = spread_points(s * np.array([math.cos(2 * angle_rad), math.sin(2 * angle_rad)]))
+    y, x = 0.05 * (np.indices((241, 241)) - 120.0)
+    along, across = x * math.cos(angle_rad) + y * math.sin(angle_rad), y * math.cos(angle_rad) - x * math.sin(angle_rad)
+    force = np.exp(-(((along / length) ** 2 + (across / width) ** 2) ** 1.5) / 2)
+    assert share.sum() == pytest.approx(1.0)
+    for of_points, of_force in ((dx * dx, x * x), (dx * dy, x * y), (dy * dy, y * y)):
+        assert share @ of_points == pytest.approx((force * of_force).sum() / force.sum(), abs=0.01)

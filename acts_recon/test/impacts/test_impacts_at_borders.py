@@ -14,6 +14,7 @@ from told_impacts import Array, bump, told_of
 
 from acts_core.array import ArrayGeometry
 from acts_core.sampling import SamplingConfig
+from acts_core.skin import ForceResponse
 from acts_recon.impacts import Impact, Kind
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 
@@ -51,6 +52,26 @@ def test_an_impact_is_told_on_the_patch_that_it_presses(
     inner_m, border_m = ArrayGeometry(32, 32, 0.004375).x_m([13.0, 15.5])
     assert inner_m < impact.x_m <= border_m
     assert max(impact.path_x_m) <= border_m
+
+
+@pytest.mark.parametrize("whole_n", [20.0, 150.0])
+@pytest.mark.parametrize("col", [14.5, 15.5, 16.3])
+def test_of_an_impact_across_a_border_only_what_presses_the_patch_is_told(
+    col: float, whole_n: float, settings: ReconstructionConfig
+) -> None:
+    """It was told as if the skin went on there, of up to three times the force."""
+    response, geometry = ForceResponse(), ArrayGeometry(32, 32, 0.004375)
+    share_n = np.where(np.arange(32) < 16, bump(32, 32, 10, col, 1.2), 0.0) / (2 * math.pi * 1.2**2)
+
+    def pressure(time_s: float) -> Array:
+        share = (time_s - 0.2) / 0.008
+        return response.counts(whole_n * math.sin(math.pi * min(max(share, 0.0), 1.0)) ** 1.5 * share_n)
+
+    told = told_of(settings, SamplingConfig("tracking", 32, 32, 64, threshold_counts=25), pressure, 0.3)
+    (impact,) = (one for one in told if one.kind is Kind.IMPACT)
+    assert impact.peak_n == pytest.approx(whole_n * share_n.sum(), rel=0.2)
+    assert impact.force_n.max() == impact.peak_n
+    assert impact.x_m == pytest.approx(float((share_n @ geometry.x_m(np.arange(32))).sum() / share_n.sum()), abs=0.001)
 
 
 @pytest.mark.parametrize("scheme", ["tracking", "adaptive", "random"])
