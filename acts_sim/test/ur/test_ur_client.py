@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import signal
+import socket
 import threading
 from collections.abc import Iterator
 
@@ -103,6 +104,16 @@ def test_upper_range_of_registers(simulator: Simulator) -> None:
 def test_two_robots_at_once(simulator: Simulator) -> None:
     with Simulator(OTHER_HOST):
         assert simulator.client("two_robots", OTHER_HOST) == {"moves": [True, True]}
+
+
+def test_a_robot_at_the_ipv6_address_of_this_machine() -> None:
+    try:
+        with socket.socket(socket.AF_INET6) as probe:
+            probe.bind(("::1", 0))
+    except OSError as error:
+        pytest.skip(f"this machine has no ::1: {error}")
+    with Simulator("::1") as simulator:
+        assert simulator.client("connecting") == {"move": True}
 
 
 def test_a_stream_outlives_its_client_unless_it_is_watched(simulator: Simulator) -> None:

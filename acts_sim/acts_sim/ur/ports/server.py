@@ -265,14 +265,17 @@ class Server:
 
 
 def _listen(host: str, port: Port) -> socket.socket:
-    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listener: socket.socket | None = None
     try:
+        # An address of IPv6 has colons; of a name, the address of IPv4 is taken.
+        listener = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_STREAM)
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind((host, port.number))
         listener.listen(MAX_CONNECTIONS)
         listener.setblocking(False)
     except (OSError, OverflowError, UnicodeError) as error:
-        listener.close()
+        if listener is not None:
+            listener.close()
         failure = f"cannot listen on {host} port {port.number} ({port.name}): {error}."
         if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
             raise SettingsError(
