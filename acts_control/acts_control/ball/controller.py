@@ -21,6 +21,11 @@ from acts_core.settings import Changeable, setting, validate
 _FARTHEST_M = 1.0
 _FASTEST_M_S = 5.0
 
+# So many estimates in a row that are too old when they come are no delay.
+_CONFIRMED = 5
+
+_IN_THE_FUTURE = "its stamps lie in the future, the clocks differ"
+
 
 class Phase(IntEnum):
     """What the controller does; the numbers are those of BalanceStatus."""
@@ -157,6 +162,7 @@ class BallController:
         self._stale_s = 0.0
         self._reported_ns: int | None = None
         self._unchanged_s = 0.0
+        self._came_old = 0
         self._references = ReferenceFollower(_reference_limits(config))
         self._tilts = TiltHistory(config.lever_arm_m, 2.0 * config.touch_stale_after_s)
 
@@ -217,16 +223,22 @@ class BallController:
         """Age of the newest estimate [s]: by its stamp, and by how long it has been the newest, whatever clocks say."""
         if inputs.ball is None:
             return float("inf")
-        stamp_ns = inputs.ball.stamp_ns
-        self._unchanged_s = self._unchanged_s + dt if stamp_ns == self._reported_ns else 0.0
+        stamp_ns, stale_after_s = inputs.ball.stamp_ns, self.config.touch_stale_after_s
+        age_s = touch_age_s(inputs.now_ns, stamp_ns)
+        if stamp_ns != self._reported_ns:
+            self._unchanged_s = 0.0
+            self._came_old = self._came_old + 1 if age_s > stale_after_s else 0
+        else:
+            self._unchanged_s += dt
+            self._came_old = self._came_old if self._unchanged_s <= stale_after_s else 0
         self._reported_ns = stamp_ns
-        return max(touch_age_s(inputs.now_ns, stamp_ns), self._unchanged_s)
+        return max(age_s, self._unchanged_s)
 
     def _wait(self, fresh: bool, ball: bool, reference: bool, dt: float) -> None:
         state = self.state
         self._ball_s = self._ball_s + dt if ball and reference else 0.0
         if not fresh:
-            state.reason = "waiting for touch"
+            state.reason = "; ".join(filter(None, ("waiting for touch", self._why_it_counts_as_none())))
         elif not ball:
             state.reason = "waiting for a ball"
         elif not reference:
@@ -236,6 +248,15 @@ class BallController:
             state.reason = "balancing"
             self._no_ball_s = 0.0
             self._pid.reset()
+
+    def _why_it_counts_as_none(self) -> str:
+        """Why touch that comes is not used, in words without numbers; empty where none comes."""
+        if self._came_old < _CONFIRMED:
+            return ""
+        if isinf(self.state.touch_age_s):
+            return _IN_THE_FUTURE
+        where = "as from a recording, or a machine that is busy or whose clock is behind"
+        return f"what comes is older than touch_stale_after_s, {where}"
 
     def _balance(self, ball: Ball, reference: Reference, inputs: ControlInput, dt: float) -> tuple[float, float]:
         state = self.state
@@ -263,7 +284,7 @@ class BallController:
     def _stale_in_words(self) -> str:
         age_s = self.state.touch_age_s
         if isinf(age_s):
-            return "its stamps lie in the future, the clocks differ"
+            return _IN_THE_FUTURE
         return f"the newest is {age_s:.2f} s old, and none was younger than {self.config.touch_stale_after_s:g} s"
 
     def _finish(self, dt: float) -> None:

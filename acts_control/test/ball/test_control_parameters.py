@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator
 
@@ -20,6 +21,7 @@ from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.robots.base import RobotReading
 from acts_core.errors import RobotError, SettingsError
+from acts_ros.diagnostics import ERROR, OK, WARN
 
 
 class NoArm:
@@ -128,4 +130,20 @@ def test_a_reason_that_comes_and_goes_is_logged_now_and_then_and_a_state_always(
     assert logged(Phase.WAITING, *["neither"] * 100).count("waiting: neither") == 1
     assert "balancing: well" in logged(Phase.BALANCING, "well")
     assert "stopped: no data" in logged(Phase.STOPPED, "no data")
+    node.destroy_node()
+
+
+def test_the_diagnostics_warn_while_there_is_no_touch_that_counts(context: Context) -> None:
+    node = BallControlNode(lambda _settings: NoArm(), context=context)
+
+    def level(phase: Phase, touch_age_s: float) -> int:
+        node._loop.status = LoopStatus(phase=phase, reason="a reason", touch_age_s=touch_age_s)
+        level, words, _values = node._report()
+        assert words.endswith(": a reason")
+        return level
+
+    for phase in (Phase.WAITING, Phase.BALANCING):
+        assert [level(phase, age_s) for age_s in (0.1, 0.3, math.inf)] == [OK, WARN, WARN]
+    assert level(Phase.HOMING, math.inf) == OK  # nobody has looked yet
+    assert level(Phase.STOPPED, 0.1) == ERROR
     node.destroy_node()

@@ -226,6 +226,24 @@ def test_it_waits_level_for_touch_ball_and_reference() -> None:
     assert (scene.phase, scene.reason) == (Phase.BALANCING, "balancing")
 
 
+def test_touch_that_is_too_old_when_it_comes_is_told_as_that_and_not_as_missing() -> None:
+    scene = Scene()
+    scene.touch_age_ms = 500.0
+    scene.step()
+    assert scene.reason == "waiting for touch"  # a single one may have been held up
+    scene.step(0.3)
+    assert scene.reason.startswith("waiting for touch; what comes is older than touch_stale_after_s")
+    # Nothing more comes: what came last may be as old as it likes.
+    scene.go_silent(0.2)
+    assert scene.reason == "waiting for touch"
+    scene.touch_age_ms = -500.0
+    scene.step(0.3)
+    assert scene.reason == "waiting for touch; its stamps lie in the future, the clocks differ"
+    scene.touch_age_ms, scene.valid = 5.0, False
+    scene.step()
+    assert scene.reason == "waiting for a ball"
+
+
 def test_a_ball_felt_for_a_moment_only_does_not_close_the_loop() -> None:
     scene = Scene()
     for _ in range(20):

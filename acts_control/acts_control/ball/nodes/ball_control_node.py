@@ -44,6 +44,9 @@ _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
 
+# In these, touch is looked at.
+_FEELING = (Phase.WAITING, Phase.BALANCING)
+
 # How long the last status may take to arrive where it is heard.
 _LAST_WORDS_S = 0.5
 
@@ -249,7 +252,10 @@ class BallControlNode(Node):
             "steps": status.steps,
             "late_steps": status.late_steps,
         }
-        return _LEVELS.get(status.phase, OK), f"{status.phase.name.lower()}: {status.reason}", values
+        level = _LEVELS.get(status.phase, OK)
+        if status.phase in _FEELING and status.touch_age_s > self._settings.touch_stale_after_s:
+            level = WARN
+        return level, f"{status.phase.name.lower()}: {status.reason}", values
 
 
 SETTINGS: dict[str, type] = {"ball_control": BallControlSettings}
