@@ -141,8 +141,8 @@ class Reports:
         return None if rise is None else follow_back(rise)
 
     def _untouched_before(self, touch: Touch) -> NDArray[np.float64]:
-        first_s = 2 * touch.before_s - touch.began_s
-        return self._samples.untouched_s(*touch.start_m, touch.patch, first_s, touch.first_sample_s)
+        # At an edge of the skin few taxels lie around: the last frames may have measured none of them.
+        return self._samples.untouched_s(*touch.start_m, touch.patch, -math.inf, touch.first_sample_s)
 
     def _footprint(
         self, touch: Touch, touches: Sequence[Touch], time_s: Array, force_n: Array, x_m: Array, y_m: Array

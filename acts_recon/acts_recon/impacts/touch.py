@@ -192,7 +192,9 @@ class Touch:
             As its samples say; then `force` is not used.
         """
         latest_s = self.first_sample_s
-        earliest_s = float(untouched_s.max(initial=latest_s - (self.began_s - self.before_s)))
+        # Of images without samples each has seen all.
+        frame_s = self.began_s - self.before_s
+        earliest_s = float(untouched_s.max()) if untouched_s.size else latest_s - frame_s
         if followed is None:
             return _between(earliest_s, latest_s, None if force is None else _zero(force, 0, 1))
         return _weighed(earliest_s, latest_s, followed)

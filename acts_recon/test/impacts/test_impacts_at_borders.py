@@ -74,6 +74,22 @@ def test_of_an_impact_across_a_border_only_what_presses_the_patch_is_told(
     assert impact.x_m == pytest.approx(float((share_n @ geometry.x_m(np.arange(32))).sum() / share_n.sum()), abs=0.001)
 
 
+@pytest.mark.parametrize("row", [5, 11, 17])
+def test_frames_that_measured_nothing_near_do_not_say_when_an_impact_began(row: int) -> None:
+    """So few taxels lie around an impact at the edge of the skin that some frames measure none of them."""
+    response = ForceResponse()
+    share_n = bump(32, 32, row, 31.9, 1.0) / (2 * math.pi)
+
+    def pressure(time_s: float) -> Array:
+        share = (time_s - 0.2) / 0.008
+        return response.counts(20.0 * math.sin(math.pi * min(max(share, 0.0), 1.0)) ** 1.5 * share_n)
+
+    sampling = SamplingConfig("tracking", 32, 32, 64, threshold_counts=25, seed=3)
+    told = told_of(ReconstructionSettings(touch_counts=25), sampling, pressure, 0.25)
+    (impact,) = (one for one in told if one.kind is Kind.IMPACT)
+    assert abs(impact.onset_s - 100.2) < 3 * impact.onset_sd_s
+
+
 @pytest.mark.parametrize("scheme", ["tracking", "adaptive", "random"])
 def test_what_presses_the_patch_beside_has_no_part_in_an_impact(scheme: str, settings: ReconstructionConfig) -> None:
     def impact_beside(counts: float) -> Impact:
