@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Status of a driver on /diagnostics."""
+"""Status of a driver on /diagnostics, or of another node of a skin."""
 
 from __future__ import annotations
 
@@ -23,10 +23,14 @@ def driver_values(message: DiagnosticArray, namespace: str) -> dict[str, str] | 
     dict of str to str or None
         Values as listed in ``docs/driver.md``; None where the message has none, or the driver has not found its port.
     """
-    name = f"{namespace.strip('/')}/driver"
+    values = node_values(message, namespace, "driver")
+    return values if "lost" in values else None
+
+
+def node_values(message: DiagnosticArray, namespace: str, node: str) -> dict[str, str]:
+    """Values of a node of a skin; empty where the message has none of it."""
+    name = f"{namespace.strip('/')}/{node}"
     for status in message.status:
         if status.name == name:
-            values = {value.key: value.value for value in status.values}
-            if "lost" in values:
-                return values
-    return None
+            return {value.key: value.value for value in status.values}
+    return {}

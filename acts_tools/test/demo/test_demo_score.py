@@ -94,6 +94,19 @@ def test_a_demo_that_could_not_watch_itself_is_not_good(track: str, kept: slice)
     assert any("received nothing for" in failure for failure in results["failures"])
 
 
+def test_a_ball_that_fell_off_is_told_as_that_and_not_as_a_demo_that_received_nothing() -> None:
+    recording = make_recording()
+    recording.finished, recording.has_fallen = False, True
+    truth = recording.truth
+    recording.truth = Track(truth.time_s[:900], truth.x_m[:900], truth.y_m[:900])
+    assert score(recording)["failures"] == ["the ball fell off the plate", "the trajectory did not come to its end"]
+    # What was missed before it fell is told nevertheless.
+    del recording.truth.time_s[500:600], recording.truth.x_m[500:600], recording.truth.y_m[500:600]
+    assert any("received nothing for 1.0 s" in failure for failure in score(recording)["failures"])
+    recording.truth = Track()
+    assert "the ball fell off the plate" in score(recording)["failures"]
+
+
 def test_a_nan_error_is_a_failure() -> None:
     recording = make_recording()
     recording.truth.x_m[1000] = float("nan")

@@ -18,7 +18,7 @@ from acts_ros.messages import seconds_of
 from acts_ros.middleware import NotAskedError, ask
 from acts_ros.polled import PollingNode
 from acts_tools.demo.ball.recording import Recording
-from acts_tools.driver.status import driver_values
+from acts_tools.driver.status import driver_values, node_values
 
 # Twice the number of messages per second of the most frequent topic.
 _DEPTH = 256
@@ -121,7 +121,10 @@ class Collector(PollingNode):
         recording.contact_rate_hz = recording.contacts_received / elapsed_s if elapsed_s > 0 else 0.0
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
-        values = driver_values(message, self.get_namespace())
+        namespace = self.get_namespace()
+        if self._balancing and int(node_values(message, namespace, "ball_world").get("falls", 0)):
+            self.recording.has_fallen = True
+        values = driver_values(message, namespace)
         if values is None:
             return
         lost, crc_errors = int(values["lost"]), int(values["crc_errors"])

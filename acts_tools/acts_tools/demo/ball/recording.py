@@ -73,6 +73,8 @@ class Recording:
         Reason why the controller stopped; empty if it did not.
     finished : bool
         Whether the reference reached its end.
+    has_fallen : bool
+        Whether the ball fell off the plate.
     """
 
     truth: Track = field(default_factory=Track)
@@ -92,3 +94,4 @@ class Recording:
     cpu_percent: dict[str, float] = field(default_factory=dict)
     stop_reason: str = ""
     finished: bool = False
+    has_fallen: bool = False

@@ -123,7 +123,9 @@ def watch(arguments: list[str], duration_s: float, recording: Recording, log_pat
             _close_loop(watcher, collector)
             meter = LoadMeter(launch.pid)
             meter.start()
-            watcher.until(lambda: recording.finished or bool(recording.stop_reason), duration_s + 10.0)
+            watcher.until(
+                lambda: recording.finished or recording.has_fallen or bool(recording.stop_reason), duration_s + 10.0
+            )
             recording.cpu_percent = meter.percent()
             watcher.end()
         finally:

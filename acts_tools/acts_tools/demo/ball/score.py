@@ -63,8 +63,13 @@ def rms_error_mm(recording: Recording, segment: str, *, skip_s: float = 0.0) -> 
 
 
 def largest_gap_s(recording: Recording) -> float:
-    """Longest time without a reference, or without a true position, while the control loop was closed [s]."""
+    """Longest time without a reference, or without a true position, while the control loop was closed [s].
+
+    After a ball has fallen off the plate, neither counts.
+    """
     reference_s = np.array(recording.reference.time_s)
+    if recording.has_fallen:
+        reference_s = reference_s[reference_s <= max(recording.truth.time_s, default=-np.inf)]
     if not reference_s.size:
         return 0.0
     truth_s = np.clip(recording.truth.time_s, reference_s[0], reference_s[-1])
@@ -99,6 +104,8 @@ def failures(recording: Recording, results: dict[str, Any]) -> list[str]:
     found = []
     if recording.stop_reason:
         found.append(f"the controller stopped: {recording.stop_reason}")
+    if recording.has_fallen:
+        found.append("the ball fell off the plate")
     if not recording.finished:
         found.append("the trajectory did not come to its end")
     gap_s = largest_gap_s(recording)
