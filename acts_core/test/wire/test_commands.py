@@ -43,7 +43,7 @@ from acts_core.wire import (
 from acts_core.wire.board_models import MODEL_CAPACITY, ModelKind
 from acts_core.wire.board_settings import SETTINGS_SIZE
 from acts_core.wire.commands import NO_MODEL, BoardSettings, HeldModel, SettingField, encode_reply
-from acts_core.wire.packets import PacketType, seal
+from acts_core.wire.packets import PacketType, seal, stuffed
 
 pytestmark = pytest.mark.slow
 
@@ -283,6 +283,16 @@ def test_replies_of_another_release_are_malformed(offset: int, value: int, words
     assert decoder.malformed == 1
     assert words in decoder.last_error
     assert "same release" in decoder.last_error
+
+
+@pytest.mark.parametrize("apart", [-1, 1])
+def test_a_reply_that_says_that_it_has_another_length_is_malformed(apart: int) -> None:
+    packet = bytearray(unstuffed(encode_reply(example_reply()))[:-4])
+    packet[2:4] = struct.pack("<H", len(packet) + 4 + apart)
+    decoder = StreamDecoder()
+    decoder.feed(stuffed(bytes(packet)))
+    assert (decoder.messages, decoder.malformed) == (0, 1)
+    assert decoder.last_error == f"packet of {len(packet) + 4} bytes says it has {len(packet) + 4 + apart}"
 
 
 def test_of_a_reply_of_another_release_is_known_who_answers_what() -> None:

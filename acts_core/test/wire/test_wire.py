@@ -318,6 +318,10 @@ def test_a_stream_opened_within_a_packet_counts_it_apart() -> None:
     stream = encode_frame(example())
     assert len(decoder.feed(stream[20:] + stream)) == 1
     assert (decoder.frames, decoder.partial, rejected(decoder)) == (1, 1, 0)
+    # The delimiter of the packet that was cut does not count.
+    assert decoder.bytes_discarded == 30 + len(stream[20:]) - 1
+    decoder.feed(stream[:9])
     decoder.reset()
     assert len(decoder.feed(stream)) == 1
     assert (decoder.frames, decoder.partial, rejected(decoder)) == (2, 1, 0)
+    assert decoder.bytes_discarded == 30 + len(stream[20:]) - 1 + 9
