@@ -127,7 +127,9 @@ def _recorded(paths: Sequence[Path], arguments: argparse.Namespace) -> tuple[NDA
         words = without_contact(largest, arguments.touch_counts)
         raise RecordingError(f"{named}: {words}, or a lower --touch-counts")
     if len(touched) < len(chosen):
-        print(f"left out: {counted(len(chosen) - len(touched), 'recording')} without a touch")
+        lacking = sorted({labels[n] for n in chosen} - {labels[n] for n in touched})
+        told = f"; the library lacks {', '.join(lacking)}, of which no recording has one" if lacking else ""
+        print(f"left out: {counted(len(chosen) - len(touched), 'recording')} without a touch{told}")
     digests = ", ".join(f"{path.name} (sha256 {digest_of(path)})" for path in paths)
     source = f"{counted(len(touched), 'recording')} of {digests}"
     return peaks[touched], [labels[n] for n in touched], source

@@ -269,6 +269,16 @@ def test_recordings_without_a_touch_and_what_no_taxel_reads_stay_out_of_a_librar
         make_library("-o", tmp_path / "o.npz", "--frames", tmp_path / "f.npz", "--touch-counts", 400)
 
 
+def test_an_object_that_a_library_lacks_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, counts in (("cup_1", 300), ("cup_2", 0), ("can", 0), ("pen", 300)):
+        np.savez(tmp_path / f"{name}.npz", frames=np.full((2, 8, 8), counts, dtype=np.uint16))
+    made = tmp_path / "objects"
+    assert make_library("-o", made, "--files", *sorted(tmp_path.glob("*.npz"))) == 0
+    assert load_object_library(made).names == ("cup", "pen")
+    told = capsys.readouterr().out.splitlines()[0]
+    assert told == "left out: 2 recordings without a touch; the library lacks can, of which no recording has one"
+
+
 def test_what_cannot_be_is_refused(grasps: Path, tmp_path: Path) -> None:
     plain = tmp_path / "plain.npz"
     np.savez(plain, frames=np.zeros((2, 4, 4), np.uint16), rate_hz=31.0)
