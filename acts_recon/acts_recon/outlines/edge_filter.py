@@ -30,6 +30,8 @@ _BEGIN_SD, _BEGIN_WAVE_SD = (1.0, 1.0), (0.35, 0.3)
 _FASTEST_BEGIN = 2.0
 # Random accelerations of the mean radius, and of each wave [taxels/ms per root ms].
 _SHAKE, _WAVE_SHAKE = 0.5, 0.18
+# Beyond a border an edge is round within this, in each of so many directions [taxels, taxels/ms].
+_ROUND_SD, _DIRECTIONS = (3.0, 1.0), 24
 _CORNERS = 72
 _LEAST_RADIUS, _LEAST_MEAN = 0.1, 0.4
 
@@ -74,6 +76,33 @@ class EdgeFilter:
         noise = np.block([[shake * step**3 / 3, shake * step**2 / 2], [shake * step**2 / 2, shake * step]])
         self._state = on @ self._state
         self._covariance = on @ self._covariance @ on.T + noise
+
+    def round_beyond(self, first_row: float, end_row: float, first_col: float, end_col: float) -> None:
+        """Take the edge for round where it lies beyond the border of its patch, and nothing is ever measured.
+
+        There the last motion would go on for ever, and in the end turn what lies on the patch.
+
+        Parameters
+        ----------
+        first_row, end_row, first_col, end_col : float
+            Of the border.
+        """
+        angle = 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
+        row, col = self.row + self.radius * np.sin(angle), self.col + self.radius * np.cos(angle)
+        is_on_patch = (row >= first_row) & (row <= end_row) & (col >= first_col) & (col <= end_col)
+        if is_on_patch.all():
+            return
+        waves = _basis(angle[~is_on_patch])
+        waves[:, 0] = 0.0
+        columns = np.kron(np.eye(2), waves)
+        # Of a Kalman filter that measures 0.
+        noise = np.diag(np.repeat(_ROUND_SD, len(waves)) ** 2)
+        seen = columns @ self._covariance
+        gain = np.linalg.solve(seen @ columns.T + noise, seen).T
+        kept = np.eye(2 * _TERMS) - gain @ columns
+        self._state = kept @ self._state
+        # In this form (Joseph's) it stays symmetric.
+        self._covariance = kept @ self._covariance @ kept.T + gain @ noise @ gain.T
 
     def update(self, row: Array, col: Array, since_ms: Array, inside: Array) -> None:
         """Take the samples of a frame.
