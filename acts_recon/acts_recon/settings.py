@@ -322,6 +322,7 @@ class ReconstructionConfig(
             noise_counts=skin.assumed_noise_counts,
             config=part_of(OutlinesConfig, self),
             layout=skin.layout,
+            dead=None if recovery.dead is None else recovery.dead.in_picture,
         )
 
     def regions(self, recovery: Recovery) -> Regions | None:

@@ -30,7 +30,7 @@ _BEGIN_SD, _BEGIN_WAVE_SD = (1.0, 1.0), (0.35, 0.3)
 _FASTEST_BEGIN = 2.0
 # Random accelerations of the mean radius, and of each wave [taxels/ms per root ms].
 _SHAKE, _WAVE_SHAKE = 0.5, 0.18
-# Beyond a border an edge is round within this, in each of so many directions [taxels, taxels/ms].
+# Where it is not measured an edge is round within this, in each of so many directions [taxels, taxels/ms].
 _ROUND_SD, _DIRECTIONS = (3.0, 1.0), 24
 _CORNERS = 72
 _LEAST_RADIUS, _LEAST_MEAN = 0.1, 0.4
@@ -77,22 +77,25 @@ class EdgeFilter:
         self._state = on @ self._state
         self._covariance = on @ self._covariance @ on.T + noise
 
-    def round_beyond(self, first_row: float, end_row: float, first_col: float, end_col: float) -> None:
-        """Take the edge for round where it lies beyond the border of its patch, and nothing is ever measured.
+    def round_off(self, is_measured: NDArray[np.bool_]) -> None:
+        """Take the edge for round where it lies on taxels that are never measured, or beyond the picture.
 
-        There the last motion would go on for ever, and in the end turn what lies on the patch.
+        There the last motion would go on for ever, and in the end turn what lies on the others.
 
         Parameters
         ----------
-        first_row, end_row, first_col, end_col : float
-            Of the border.
+        is_measured : np.ndarray [shape=(rows, cols), dtype=bool]
+            Which taxels of the picture are, on this patch.
         """
         angle = 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-        row, col = self.row + self.radius * np.sin(angle), self.col + self.radius * np.cos(angle)
-        is_on_patch = (row >= first_row) & (row <= end_row) & (col >= first_col) & (col <= end_col)
-        if is_on_patch.all():
+        row = np.rint(self.row + self.radius * np.sin(angle)).astype(int)
+        col = np.rint(self.col + self.radius * np.cos(angle)).astype(int)
+        rows, cols = is_measured.shape
+        is_known = (row >= 0) & (row < rows) & (col >= 0) & (col < cols)
+        is_known &= is_measured[np.clip(row, 0, rows - 1), np.clip(col, 0, cols - 1)]
+        if is_known.all():
             return
-        waves = _basis(angle[~is_on_patch])
+        waves = _basis(angle[~is_known])
         waves[:, 0] = 0.0
         columns = np.kron(np.eye(2), waves)
         # Of a Kalman filter that measures 0.

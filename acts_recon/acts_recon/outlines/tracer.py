@@ -103,6 +103,8 @@ class OutlineTracer:
     config : OutlinesConfig, optional
     layout : Layout, optional
         No outline reaches over a border of its patches.
+    dead : np.ndarray [shape=(rows, cols), dtype=bool], optional
+        Which taxels of the picture are dead, so that no sample is of them.
     """
 
     def __init__(
@@ -113,8 +115,10 @@ class OutlineTracer:
         noise_counts: float = NOISE_COUNTS,
         config: OutlinesConfig | None = None,
         layout: Layout | None = None,
+        dead: NDArray[np.bool_] | None = None,
     ) -> None:
         self.config = config or OutlinesConfig()
+        self._dead = dead
         self._geometry = geometry
         self._shape = geometry.rows, geometry.cols
         self._samples = PlacedSamples(geometry, layout)
@@ -296,15 +300,15 @@ class OutlineTracer:
             edge = track.edge
             edge.predict(1e3 * age_s)
         patch = self._rectangle_of[inside][0]
-        first_row, end_row, first_col, end_col = self._rectangles[patch]
-        border = first_row - 0.5, end_row - 0.5, first_col - 0.5, end_col - 0.5
-        edge.round_beyond(*border)
-        other = (frame.labels > 0) & (frame.labels != label) | (self._rectangle_of != patch)
+        on_patch = self._rectangle_of == patch
+        edge.round_off(on_patch if self._dead is None else on_patch & ~self._dead)
+        other = (frame.labels > 0) & (frame.labels != label) | ~on_patch
         near = ~other[row, col] & (np.hypot(row - edge.row, col - edge.col) < edge.radius + _OUTSIDE)
         share = np.log(np.maximum(sampled_n[near] / level_n, 1e-6)) / (2 * np.log(_BAND))
         share = np.clip(0.5 + share, 0.0, 1.0)
         edge.update(row[near].astype(float), col[near].astype(float), frame.since_ms[near], share)
-        return np.clip(edge.corners(), border[::2], border[1::2])
+        first_row, end_row, first_col, end_col = self._rectangles[patch]
+        return np.clip(edge.corners(), (first_row - 0.5, first_col - 0.5), (end_row - 0.5, end_col - 0.5))
 
     def _begun(self, frame: _Frame, inside: NDArray[np.bool_], level_n: float, since_ms: float) -> EdgeFilter | None:
         rows, cols = np.nonzero(inside)

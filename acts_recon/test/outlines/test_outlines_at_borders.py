@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Outlines of young contacts of which a part lies beyond a border, where nothing is measured."""
+"""Outlines of young contacts of which a part lies where nothing is measured: beyond a border, on dead taxels."""
 
 from __future__ import annotations
 
@@ -12,8 +12,12 @@ import pytest
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.sampling import Sampler, SamplingConfig
 from acts_core.skin import ForceResponse
 from acts_recon.outlines import OutlinesConfig, OutlineTracer
+from acts_recon.settings import ReconstructionSettings
+
+pytestmark = pytest.mark.slow
 
 GEOMETRY = ArrayGeometry()
 ALL = np.arange(1024, dtype=np.uint16)
@@ -43,3 +47,33 @@ def test_the_outline_of_what_rests_stays_though_a_part_of_it_lies_beyond_the_ski
         measured_counts = counts.ravel()[measured]
         (outline,) = tracer.step(measured, measured_counts, 1e-3 * number, 1e-3, counts.astype(np.float32))
         assert outline.area_m2 == pytest.approx(true_m2, rel=0.45)
+
+
+@pytest.mark.parametrize("dead_taxels", ["", "col=19 col=20", "row=12 row=13", "row=15 col=14"])
+def test_the_outline_of_what_rests_stays_though_a_part_of_its_edge_lies_on_dead_taxels(dead_taxels: str) -> None:
+    """Beside two dead lines it grew to more than twice the area within 50 ms."""
+    settings = ReconstructionSettings(touch_counts=60, dead_taxels=dead_taxels)
+    recovery = settings.recovery()
+    tracer = settings.outline_tracer(recovery)
+    sampler = Sampler(SamplingConfig("tracking", m=55, threshold_counts=60))
+    pressed = disc(15.3, 16.2, 2.2)
+    if recovery.dead is not None:
+        pressed[recovery.dead.in_picture] = 0
+    rng = np.random.default_rng(0)
+    counts = np.zeros((32, 32))
+
+    def measure(row: int, col: int) -> int:
+        return int(counts[row, col])
+
+    areas_m2 = []
+    for number in range(70):
+        counts[:] = np.clip(np.rint(pressed * (number >= 20) + 3 * rng.standard_normal((32, 32))), 0, 1023)
+        indices, samples = sampler.frame(measure)
+        if recovery.dead is not None:
+            indices, samples = recovery.dead.left_out(indices, samples)
+        end_s = 1e-3 * number
+        recovery.step(indices, samples, end_s, 1e-3)
+        found = tracer.step(indices, samples, end_s, 1e-3, recovery.image)
+        areas_m2 += [outline.area_m2 for outline in found if number >= 26]
+    assert len(areas_m2) == 44
+    assert areas_m2 == pytest.approx([math.pi * (2.2 * GEOMETRY.pitch_m) ** 2] * 44, rel=0.45)
