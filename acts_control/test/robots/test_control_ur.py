@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import re
 import socket
+import struct
 import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, closing
@@ -38,17 +39,17 @@ def listen(stack: ExitStack, port: int) -> socket.socket:
     return stack.enter_context(closing(socket.create_server((HOST, port))))
 
 
-def say(stack: ExitStack, port: int, pieces: list[bytes]) -> None:
-    """Answer one client, piece by piece, and hang up."""
+def say(stack: ExitStack, port: int, pieces: list[bytes], clients: int = 1) -> None:
+    """Answer clients, piece by piece, and hang up."""
     server = listen(stack, port)
 
     def serve() -> None:
-        connection, _ = server.accept()
-        with connection:
-            for piece in pieces:
-                connection.sendall(piece)
-            connection.shutdown(socket.SHUT_WR)
-            connection.recv(100)
+        for connection, _ in (server.accept() for _ in range(clients)):
+            with connection:
+                for piece in pieces:
+                    connection.sendall(piece)
+                connection.shutdown(socket.SHUT_WR)
+                connection.recv(100)
 
     thread = threading.Thread(target=serve, daemon=True)
     thread.start()
@@ -66,6 +67,16 @@ def test_a_controller_that_answers_is_one(stack: ExitStack) -> None:
     say(stack, DASHBOARD_PORT, [GREETING[:5], GREETING[5:]])
     listen(stack, SCRIPT_PORT)
     probe(HOST)
+
+
+@pytest.mark.parametrize(
+    ("major", "words"), [(5, "no UR controller at 127.0.17.20 port 29999"), (10, "PolyScope X .10.8")]
+)
+def test_a_controller_without_a_dashboard(stack: ExitStack, major: int, words: str) -> None:
+    # In one piece: who hangs up before all is read resets the connection.
+    say(stack, RTDE_PORT, [VERSION + struct.pack(">HB4I", 19, ord("v"), major, 8, 0, 0)], clients=2)
+    with pytest.raises(RobotError, match=words):
+        probe(HOST)
 
 
 def test_nobody_there() -> None:
