@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""An arm that is not ready, or not wanted any more, when it is connected to, against the simulated UR5e.
+"""An arm that is not ready, in use, or not wanted any more, when it is connected to, against the simulated UR5e.
 
 Robot addresses 127.0.17.30 to 127.0.17.39.
 """
@@ -22,6 +22,7 @@ import acts_control.robots.ur.robot
 from acts_control.ball import Phase
 from acts_control.robots.ur import UrConfig, UrRobot
 from acts_control.robots.ur.state import UrState
+from acts_control.robots.ur.ur_probe import SCRIPT_PORT
 from acts_core.errors import RobotError
 from acts_core.robots import ur5e
 
@@ -29,6 +30,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("ur_rtde")]
 
 FAR = (ur5e.LEVEL_Q_RAD[0] + 0.5, *ur5e.LEVEL_Q_RAD[1:])
 PROGRAM, MOVE_J = "program rtde_control", "command 1"
+# Of a program that takes its commands through other registers, so that these are not in use.
+OTHER_PROGRAM = b"def rtde_control():\n  reg_offset_int = # int register offset\n24\nend\n"
 
 
 @pytest.mark.parametrize(
@@ -60,6 +63,50 @@ def test_an_arm_that_is_made_ready_at_its_panel_does_not_move_before_it_is_start
         assert simulated.state()["q_rad"] == pytest.approx(FAR, abs=1e-6)
         assert rig.loop.start()
         wait_for(lambda: MOVE_J in rig.orders_since(0.0), lambda: f"the way to the level pose, {rig.loop.status}")
+
+
+def test_a_controller_that_tells_nothing_is_not_told_as_an_arm_that_is_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    # The library's values then: all is 0.
+    nothing = UrState(connected=False, timestamp_s=0.0, q_rad=(), safety_bits=0, runtime_state=0, robot_mode=0)
+    robot = UrRobot(UrConfig(robot_ip="127.0.17.35"))
+    monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
+    monkeypatch.setattr(robot, "_start_process", lambda: None)
+    monkeypatch.setattr(robot, "_carry_out", lambda *_: None)
+    monkeypatch.setattr(robot, "_newest", lambda: nothing)
+    with pytest.raises(RobotError, match="accepts connections but sends no data; does it stand still") as caught:
+        robot.connect(lambda: True)
+    # It is tried again.
+    assert type(caught.value) is RobotError
+
+
+def test_a_program_that_runs_on_the_robot_is_not_ended_by_connecting() -> None:
+    with ExitStack() as stack:
+        simulated = stack.enter_context(SimulatedRobot("127.0.17.33", FAR))
+        with socket.create_connection((simulated.host, SCRIPT_PORT)) as other:
+            other.sendall(OTHER_PROGRAM)
+        wait_for(lambda: simulated.state()["runtime"] == "PLAYING", "the other program")
+        rig = Rig(simulated.host, stack, simulated=simulated)
+        wait_for(lambda: "a program runs" in rig.loop.status.reason, lambda: f"the reason, {rig.loop.status}")
+        # Attempts to connect come every 0.1 s.
+        rig.await_time(1.0)
+        assert rig.loop.status.phase is Phase.CONNECTING
+        assert rig.orders_since(0.0) == [PROGRAM]
+        assert simulated.state()["runtime"] == "PLAYING"
+        assert simulated.state()["q_rad"] == pytest.approx(FAR, abs=1e-6)
+        assert simulated.ask_dashboard("stop") == "Stopped"
+        rig.balance()
+
+
+def test_a_program_that_an_attempt_of_ours_has_left_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    with SimulatedRobot("127.0.17.34") as simulated:
+        robot = UrRobot(UrConfig(robot_ip=simulated.host))
+        with socket.create_connection((simulated.host, SCRIPT_PORT)) as other:
+            other.sendall(OTHER_PROGRAM)
+        wait_for(lambda: simulated.state()["runtime"] == "PLAYING", "the program")
+        monkeypatch.setattr(robot, "_is_left_running", True)
+        robot.connect(lambda: True)
+        assert robot.read().stopped == ""
+        robot.disconnect()
 
 
 def test_connecting_that_is_given_up_leaves_no_program_on_the_robot(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -308,7 +308,7 @@ def test_only_an_arm_that_nobody_has_to_make_ready_is_tried_again(
     monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
     monkeypatch.setattr(robot, "_start_process", lambda: None)
     monkeypatch.setattr(robot, "_carry_out", carry_out)
-    monkeypatch.setattr(robot, "_newest", lambda: STATE)
+    monkeypatch.setattr(robot, "_newest", lambda: STATE._replace(runtime_state=1))
     with pytest.raises(RobotError) as caught:
         robot.connect(lambda: True)
     assert type(caught.value) is kind

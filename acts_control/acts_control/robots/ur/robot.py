@@ -62,6 +62,7 @@ _NOT_READY = (
     "RTDE control program is not running",
     "Please enable remote control",
 )
+_END_IT = "end it at the robot, or where it was started"
 _MAKE_READY = "switch the arm on, release its brakes, put it into remote control, then call start"
 
 
@@ -121,10 +122,15 @@ class UrRobot:
             self._start_process()
             self._carry_out("watch", is_wanted)
             state = self._newest()
+            if not state.connected:
+                raise RobotError(f"{host}: the controller accepts connections but sends no data; does it stand still?")
             if state.safety_stop:
                 raise RobotStoppedError(f"{host}: {state.safety_stop}; release it at the robot, then start again")
             if state.unready:
                 raise RobotStoppedError(f"{host}: the arm is not ready, {state.unready}; {_MAKE_READY}")
+            # The library would end it, whatever moves by it. One of ours soon ends by the robot's watchdog.
+            if state.is_playing and not self._is_left_running:
+                raise RobotError(f"{host}: a program runs on the robot already; {_END_IT}")
             is_uploading = True
             self._carry_out("take_control", is_wanted)
             # The library knows that its program runs a packet or two before it can be read.
