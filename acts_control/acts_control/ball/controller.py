@@ -131,6 +131,8 @@ class ControllerState:
         Commanded tilt [rad].
     touch_age_s : float
         Age of the newest contact [s]; infinite before the first.
+    reference_problem : str
+        Why the ball is not led by the newest reference, in words; empty where it is.
     """
 
     phase: Phase = Phase.WAITING
@@ -139,6 +141,7 @@ class ControllerState:
     error_m: tuple[float, float] = (0.0, 0.0)
     tilt_rad: tuple[float, float] = (0.0, 0.0)
     touch_age_s: float = field(default=float("inf"))
+    reference_problem: str = ""
 
 
 class BallController:
@@ -202,6 +205,7 @@ class BallController:
         fresh = state.touch_age_s <= config.touch_stale_after_s
         ball = report.ball if report is not None and fresh and report.valid and _is_plausible(report.ball) else None
         reference = self._references.step(inputs.reference, inputs.now_ns)
+        state.reference_problem = self._references.problem if inputs.reference is not None else "no reference has come"
         self._stale_s = 0.0 if fresh else self._stale_s + dt
         self._tilts.add(inputs.now_ns, *inputs.tilt_rad)
         if ball is not None and report is not None:

@@ -72,6 +72,7 @@ class LoopStatus:
     tilt_measured_rad: tuple[float, float] = (0.0, 0.0)
     joints: tuple[float, ...] = ()
     touch_age_s: float = float("inf")
+    reference_problem: str = ""
     steps: int = 0
     late_steps: int = 0
 
@@ -317,6 +318,7 @@ class ControlLoop:
                 tilt_measured_rad=measured,
                 joints=joints,
                 touch_age_s=state.touch_age_s,
+                reference_problem=state.reference_problem,
                 steps=steps,
                 late_steps=late,
             )

@@ -147,3 +147,18 @@ def test_the_diagnostics_warn_while_there_is_no_touch_that_counts(context: Conte
     assert level(Phase.HOMING, math.inf) == OK  # nobody has looked yet
     assert level(Phase.STOPPED, 0.1) == ERROR
     node.destroy_node()
+
+
+def test_the_diagnostics_warn_while_the_reference_is_not_followed(context: Context) -> None:
+    node = BallControlNode(lambda _settings: NoArm(), context=context)
+
+    def level(phase: Phase, reference_problem: str) -> int:
+        node._loop.status = LoopStatus(phase=phase, touch_age_s=0.0, reference_problem=reference_problem)
+        level, _words, _values = node._report()
+        return level
+
+    for phase in (Phase.WAITING, Phase.BALANCING):
+        assert [level(phase, problem) for problem in ("", "the reference is stale")] == [OK, WARN]
+    assert level(Phase.HOMING, "the reference is stale") == OK  # nobody has looked yet
+    assert level(Phase.STOPPED, "the reference is stale") == ERROR
+    node.destroy_node()

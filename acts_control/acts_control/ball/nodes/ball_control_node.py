@@ -44,7 +44,7 @@ _LONG_AGO_S = 1e6
 
 _LEVELS = {Phase.CONNECTING: WARN, Phase.STOPPED: ERROR}
 
-# In these, touch is looked at.
+# In these, touch and reference are looked at.
 _FEELING = (Phase.WAITING, Phase.BALANCING)
 
 # How long the last status may take to arrive where it is heard.
@@ -253,7 +253,8 @@ class BallControlNode(Node):
             "late_steps": status.late_steps,
         }
         level = _LEVELS.get(status.phase, OK)
-        if status.phase in _FEELING and status.touch_age_s > self._settings.touch_stale_after_s:
+        is_old = status.touch_age_s > self._settings.touch_stale_after_s
+        if status.phase in _FEELING and (is_old or status.reference_problem):
             level = WARN
         return level, f"{status.phase.name.lower()}: {status.reason}", values
 

@@ -4,6 +4,7 @@
 """The control loop's thread on an arm in this process: every way from connecting to a stop."""
 
 import itertools
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -13,7 +14,7 @@ from arm_in_process import DEADLINE_S, ArmInProcess
 from control_loop_rig import ORDERLY_END, Make, await_stop, balance, feel
 from waiting import wait_for
 
-from acts_control.ball import LoopConfig, Phase
+from acts_control.ball import LoopConfig, Phase, Reference, ReferenceReport
 from acts_control.ball.controller import BallController
 from acts_control.loop_rate import steady_s
 from acts_control.robots.base import CommandRefusedError, RobotStoppedError
@@ -68,6 +69,20 @@ def test_limits_and_gains_change_while_balancing(arm: ArmInProcess, make: Make) 
         return loop.status.tilt_commanded_rad == pytest.approx((0.0, 0.0), abs=1e-5)
 
     wait_for(level, lambda: f"a level plate, {loop.status}")
+
+
+def test_why_the_ball_is_not_led_by_a_reference_is_in_the_status(arm: ArmInProcess, make: Make) -> None:
+    loop = make()
+    wait_for(lambda: loop.status.reference_problem == "no reference has come", lambda: f"none yet, {loop.status}")
+    balance(loop)
+    assert loop.status.reference_problem == ""
+
+    def is_refused() -> bool:
+        feel(loop)
+        loop.reference = ReferenceReport(time.time_ns(), Reference(math.nan, 0.0))
+        return loop.status.reference_problem == "the reference is refused: not finite"
+
+    wait_for(is_refused, lambda: f"a refusal, {loop.status}")
 
 
 def test_a_robot_that_is_not_there_yet_is_tried_again(
