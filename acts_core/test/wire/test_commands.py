@@ -273,7 +273,14 @@ def test_messages_without_a_listener_are_counted() -> None:
 
 @pytest.mark.parametrize(
     ("offset", "value", "words"),
-    [(5, 99, "status 99"), (6, 1, "reserved 1"), (15, 4, "flags 4"), (34, 99, "scheme 99"), (36, 0, "m = 0")],
+    [
+        (5, 99, "status 99"),
+        (6, 1, "reserved 1"),
+        (15, 4, "flags 4"),
+        (34, 99, "scheme 99"),
+        (36, 0, "m = 0"),
+        (66, 99, "model of kind 99"),
+    ],
 )
 def test_replies_of_another_release_are_malformed(offset: int, value: int, words: str) -> None:
     content = bytearray(unstuffed(encode_reply(example_reply()))[4:-4])
