@@ -62,7 +62,8 @@ _NOT_READY = (
     "RTDE control program is not running",
     "Please enable remote control",
 )
-_END_IT = "end it at the robot, or where it was started"
+_RUNS_ALREADY = "a program runs on the robot already"
+_END_IT = "end it at the robot, or where it was started, then call start"
 _MAKE_READY = "switch the arm on, release its brakes, put it into remote control, then call start"
 
 
@@ -108,7 +109,7 @@ class UrRobot:
         RobotError
             When the controller does not answer, another program controls the robot, or it is not wanted any more.
         RobotStoppedError
-            When a safety function holds it, or it is off, has its brakes on or is in local control.
+            When a safety function holds it, it is off, has its brakes on or is in local control, or runs a program.
         RobotTakenError
             When another program of this machine controls it.
         """
@@ -128,9 +129,10 @@ class UrRobot:
                 raise RobotStoppedError(f"{host}: {state.safety_stop}; release it at the robot, then start again")
             if state.unready:
                 raise RobotStoppedError(f"{host}: the arm is not ready, {state.unready}; {_MAKE_READY}")
-            # The library would end it, whatever moves by it. One of ours soon ends by the robot's watchdog.
-            if state.is_playing and not self._is_left_running:
-                raise RobotError(f"{host}: a program runs on the robot already; {_END_IT}")
+            if not self._is_left_running:
+                # The library would end it, whatever moves by it. One of ours soon ends by the robot's watchdog.
+                timeout_s = self._config.robot_watchdog_s + _PROGRAM_TIMEOUT_S
+                self._await(lambda: not self._newest().is_playing, is_wanted, timeout_s, _RUNS_ALREADY)
             is_uploading = True
             self._carry_out("take_control", is_wanted)
             # The library knows that its program runs a packet or two before it can be read.
@@ -145,6 +147,8 @@ class UrRobot:
             self.disconnect()
             if "already in use" in str(error):
                 raise RobotError(f"{error} Is another program controlling the robot?") from error
+            if _RUNS_ALREADY in str(error):
+                raise RobotStoppedError(f"{error}; {_END_IT}") from error
             if any(words in str(error) for words in _NOT_READY):
                 raise RobotStoppedError(f"{error}; {_MAKE_READY}") from error
             raise
