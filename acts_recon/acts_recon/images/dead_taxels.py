@@ -7,10 +7,11 @@ Their samples are left out, and what presses there is estimated from the live ta
 process regression is called in geostatistics (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
 eqs. 2.23 and 2.24). Pressure at the distance of d taxels is correlated by ``exp(-d^2 / (2 LENGTH_TAXELS^2))``, which
 is about how far a foam spreads it. With the correlations ``K`` between live taxels, and ``k`` between them and a dead
-one, the estimate is ``w . counts`` with ``w = (K + NOISE_SHARE I)^-1 k``. What these leave unknown is the share
-``1 - w . k`` of the variance; the largest of the counts around stands for the standard deviation of pressure. Where
-more than half is unknown, as in the middle of several dead lines, counts of 0 around say little: the standard deviation
-is at least that of the method, which has never measured there.
+one, the estimate is ``w . counts`` with ``w = (K + NOISE_SHARE I)^-1 k``, but at most twice what is read beside it:
+pressure does not jump over live taxels, while weights change their sign with the distance. What these leave
+unknown is the share ``1 - w . k`` of the variance; the largest of the counts around stands for the standard deviation
+of pressure. Where more than half is unknown, as in the middle of several dead lines, counts of 0 around say little: the
+standard deviation is at least that of the method, which has never measured there.
 """
 
 from __future__ import annotations
@@ -38,6 +39,12 @@ NOISE_SHARE = 0.03
 
 _KNOWN_SHARE = 0.5
 """Of the variance: where less is known, an estimate is no surer than a taxel that was never measured."""
+
+_MOST_OF_BESIDE = 2.0
+"""An estimate is no more than this times the largest count beside it; where a contact is, none needs to be."""
+
+_BESIDE_TAXELS = 1.5
+"""Live taxels as near as this are beside a dead one, and so is the next live one along its row and its column."""
 
 _REACH = 3
 """Live taxels farther away, in rows or columns, are not used: their weights are next to 0."""
@@ -84,12 +91,15 @@ class DeadTable(NamedTuple):
         Of these; 0 where there are fewer than k.
     unknown_share : np.ndarray [shape=(n,), dtype=float32]
         Share of the variance of pressure that these leave unknown.
+    beside : np.ndarray [shape=(n, k), dtype=bool]
+        Which of `around` lie beside it.
     """
 
     places: NDArray[np.intp]
     around: NDArray[np.intp]
     weights: NDArray[np.float32]
     unknown_share: NDArray[np.float32]
+    beside: NDArray[np.bool_]
 
 
 NO_DEAD = DeadTable(
@@ -97,6 +107,7 @@ NO_DEAD = DeadTable(
     np.zeros((0, 1), dtype=np.intp),
     np.zeros((0, 1), dtype=np.float32),
     np.zeros(0, dtype=np.float32),
+    np.zeros((0, 1), dtype=np.bool_),
 )
 """Where no taxel is dead."""
 
@@ -132,6 +143,7 @@ class DeadTaxels:
         around = np.zeros((len(places), (2 * _REACH + 1) ** 2), dtype=np.intp)
         weights = np.zeros(around.shape, dtype=np.float32)
         unknown_share = np.ones(len(places), dtype=np.float32)
+        beside = np.zeros(around.shape, dtype=np.bool_)
         for i, (row, col) in enumerate(np.argwhere(in_picture)):
             top, left = max(row - _REACH, 0), max(col - _REACH, 0)
             near = np.s_[top : row + _REACH + 1, left : col + _REACH + 1]
@@ -143,9 +155,10 @@ class DeadTaxels:
             around[i, :n] = live[:, 0] * geometry.cols + live[:, 1]
             weights[i, :n] = np.linalg.solve(between, correlation)
             unknown_share[i] = 1.0 - weights[i, :n] @ correlation
+            beside[i, :n] = _are_beside(live - (row, col))
         # Where no live taxel is near, the image is left as the method has it.
         known = (weights != 0.0).any(axis=1)
-        self.table = DeadTable(places[known], around[known], weights[known], unknown_share[known])
+        self.table = DeadTable(places[known], around[known], weights[known], unknown_share[known], beside[known])
         # Compile, or load from the cache, what the first frame would otherwise wait for.
         blank = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
         self.fill(blank, blank)
@@ -197,23 +210,38 @@ class DeadTaxels:
 @kernel
 def fill_dead(image: NDArray[np.float32], sigma: NDArray[np.float32], table: DeadTable) -> None:
     """See `DeadTaxels.fill`; flat arrays, `sigma` is empty where it is not known."""
-    places, around, weights, unknown_share = table.places, table.around, table.weights, table.unknown_share
+    places, around, weights, beside = table.places, table.around, table.weights, table.beside
+    unknown_share = table.unknown_share
     for i in range(places.shape[0]):
-        estimate = variance = largest = 0.0
+        estimate = variance = largest = largest_beside = 0.0
         for j in range(around.shape[1]):
             weight, taxel = float(weights[i, j]), around[i, j]
             # The others fill up the row.
             if weight != 0.0:
                 estimate += weight * image[taxel]
                 largest = max(largest, float(image[taxel]))
+                if beside[i, j]:
+                    largest_beside = max(largest_beside, float(image[taxel]))
                 if sigma.shape[0] > 0:
                     variance += (weight * sigma[taxel]) ** 2
+        estimate = min(estimate, _MOST_OF_BESIDE * largest_beside)
         image[places[i]] = np.float32(round(min(max(estimate, 0.0), float(COUNT_MAX))))
         if sigma.shape[0] > 0:
             deviation = np.float32(math.sqrt(variance + unknown_share[i] * largest**2))
             if unknown_share[i] > 1.0 - _KNOWN_SHARE:
                 deviation = max(deviation, sigma[places[i]])
             sigma[places[i]] = deviation
+
+
+def _are_beside(away: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Which live taxels lie beside a dead one; `away` (n, 2): rows and columns from it. Where none does, all do."""
+    beside: NDArray[np.bool_] = np.hypot(*away.T) <= _BESIDE_TAXELS
+    for along, across in ((0, 1), (1, 0)):
+        for sign in (-1, 1):
+            steps = np.where(away[:, across] == 0, sign * away[:, along], 0)
+            if (steps > 0).any():
+                beside |= steps == steps[steps > 0].min()
+    return beside if beside.any() else np.ones(len(away), dtype=np.bool_)
 
 
 def _correlation(places: NDArray[np.intp], others: NDArray[np.intp]) -> NDArray[np.float64]:

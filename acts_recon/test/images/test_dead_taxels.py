@@ -47,7 +47,12 @@ def kriging(
         to_dead = np.exp(-((live - place) ** 2).sum(1) / (2 * LENGTH_TAXELS**2))
         weights = np.linalg.inv(between + NOISE_SHARE * np.eye(len(live))) @ to_dead
         counts, sigmas = image[tuple(live.T)].astype(float), sigma[tuple(live.T)].astype(float)
-        filled[row, col] = np.rint(np.clip(weights @ counts, 0, 1023))
+        beside = [place for place in near if max(abs(place[0] - row), abs(place[1] - col)) == 1]
+        for row_step, col_step in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+            way = [(row + row_step * k, col + col_step * k) for k in (1, 2, 3)]
+            beside += [place for place in way if place in near][:1]
+        most = 2 * max(image[place] for place in beside or near)
+        filled[row, col] = np.rint(np.clip(weights @ counts, 0, min(most, 1023)))
         unknown = (1 - weights @ to_dead) * counts.max() ** 2
         deviations[row, col] = np.sqrt((weights**2) @ (sigmas**2) + unknown)
         if 1 - weights @ to_dead > 0.5:
@@ -132,6 +137,18 @@ def test_what_is_far_from_all_live_taxels_is_not_known(last: int) -> None:
     assert confidence is not None
     assert confidence[(5 + last) // 2, 7] < 10
     assert confidence[4, 7] > 240
+
+
+@pytest.mark.parametrize("words", ["col=8", "row=3 col=8", "col=8 col=9"])
+def test_nothing_is_estimated_beyond_live_taxels_that_read_nothing(words: str) -> None:
+    """A small contact three taxels from a dead column was told twice: weights are above 0 again at that distance."""
+    dead = taxels_named(words, SIDE, SIDE)
+    taxels = DeadTaxels(dead, ArrayGeometry(SIDE, SIDE))
+    image = np.zeros((SIDE, SIDE), dtype=np.float32)
+    image[9:11, 5] = 900
+    image[:, 8:10][dead[:, 8:10]] = 500
+    taxels.fill(image, None)
+    assert image[:, 6:].max() == 0.0
 
 
 def test_a_stuck_taxel_is_no_contact() -> None:
