@@ -218,10 +218,11 @@ def test_a_lost_ball_that_is_back_at_once_is_felt_for_as_long_as_a_new_one() -> 
         scene.step()
     assert scene.reason == "ball lost: waiting for a ball"
     scene.valid = True
-    scene.step(0.08)
-    assert scene.phase is Phase.WAITING
-    scene.step(0.2)
-    assert scene.phase is Phase.BALANCING
+    phases = []
+    for seconds in (0.08, 0.2):
+        scene.step(seconds)
+        phases.append(scene.phase)
+    assert phases == [Phase.WAITING, Phase.BALANCING]
 
 
 @pytest.mark.parametrize(
