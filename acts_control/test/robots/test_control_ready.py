@@ -100,6 +100,25 @@ def test_a_program_that_runs_on_the_robot_is_not_ended_by_connecting() -> None:
         rig.balance()
 
 
+def test_a_program_that_ends_soon_as_by_the_robots_watchdog_is_waited_for() -> None:
+    with SimulatedRobot("127.0.17.36") as simulated:
+        with socket.create_connection((simulated.host, SCRIPT_PORT)) as other:
+            other.sendall(OTHER_PROGRAM)
+        wait_for(lambda: simulated.state()["runtime"] == "PLAYING", "the other program")
+        robot = UrRobot(UrConfig(robot_ip=simulated.host, robot_watchdog_s=5.0))
+        answers: list[str] = []
+
+        def end_it_meanwhile() -> bool:
+            if robot._state is not None and robot._state.is_playing and not answers:
+                answers.append(simulated.ask_dashboard("stop"))
+            return True
+
+        robot.connect(end_it_meanwhile)
+        assert answers == ["Stopped"]
+        assert robot.read().stopped == ""
+        robot.disconnect()
+
+
 def test_a_program_that_an_attempt_of_ours_has_left_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
     with SimulatedRobot("127.0.17.34") as simulated:
         robot = UrRobot(UrConfig(robot_ip=simulated.host))
