@@ -14,7 +14,7 @@ footprint is not quite that.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,16 +71,16 @@ class Footprint:
         Along x and y.
     covariance : np.ndarray [shape=(2, 2), dtype=float64]
         Of the velocity [m^2/s^2].
+    width_m : np.ndarray [shape=(n,), dtype=float64]
+        As `force_n`, see `footprint_model` [m].
+    stretch : np.ndarray [shape=(2,), dtype=float64]
+        p and q, see `footprint_model`; 0 of a round one.
     explains_samples : bool
         Whether it explains the samples, or these are so few of each taxel that images show little of what pressed.
     strong_samples : float
         How often a taxel was measured with a fifth of the largest force or more, in the mean of those that were.
     is_long : bool
         Whether it is longer than wide.
-    width_m : np.ndarray [shape=(n,), dtype=float64]
-        As `force_n`, see `footprint_model` [m].
-    stretch : np.ndarray [shape=(2,), dtype=float64]
-        p and q, see `footprint_model`; 0 of a round one.
     """
 
     time_s: Array
@@ -91,11 +91,11 @@ class Footprint:
     y_m: float
     velocity_m_s: Array
     covariance: Array
+    width_m: Array
+    stretch: Array
     explains_samples: bool = True
     strong_samples: float = 1.0
     is_long: bool = False
-    width_m: Array = field(default_factory=lambda: np.zeros(0))
-    stretch: Array = field(default_factory=lambda: np.zeros(2))
 
     def is_better_than_images(self, own_n: float, peak_n: float, peak_sd_n: float) -> bool:
         """Whether it tells more of what pressed than images do.
@@ -223,11 +223,11 @@ def fit_footprint(
         centre_y_m,
         state[2:4].copy(),
         covariance[2:4, 2:4],
+        1e-3 * width_mm,
+        model.stretch_of(state),
         wider <= _WIDEST and (misfit <= _MOST_MISFIT or measured_share < _MEASURED_SHARE),
         strong.size / np.unique(strong).size,
         model.is_long,
-        1e-3 * width_mm,
-        model.stretch_of(state),
     )
 
 

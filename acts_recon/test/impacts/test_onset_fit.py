@@ -178,7 +178,10 @@ def bounce(first_s: float, nodes: int = 8, log_sd: float = 0.0) -> Footprint:
     """A ball that touches for 9 ms from 0 s on, whose force is known from a moment on."""
     time_s = np.linspace(first_s, 0.0085, nodes)
     force_n = 50.0 * np.sin(math.pi * time_s / 0.009) ** 1.5
-    return Footprint(time_s, force_n, log_sd**2 * np.eye(nodes), 0.004, 0.0, 0.0, np.zeros(2), np.eye(2))
+    still, width_m = np.zeros(2), np.full(nodes, 0.005)
+    return Footprint(
+        time_s, force_n, log_sd**2 * np.eye(nodes), 0.004, 0.0, 0.0, still, np.eye(2), width_m, np.zeros(2)
+    )
 
 
 @pytest.mark.parametrize("first_s", [0.0002, 0.0005, 0.001, 0.002])
