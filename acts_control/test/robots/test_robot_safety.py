@@ -88,6 +88,12 @@ def test_the_watch_tells_why_the_robot_stopped(changes: dict[str, object], words
     assert watch.step(NORMAL._replace(**changes), DT) == words  # type: ignore[arg-type]
 
 
+def test_joints_that_appear_after_the_first_reading_are_a_fault() -> None:
+    watch = RobotWatch(SafetyConfig())
+    assert watch.step(NORMAL._replace(joints=()), DT) == ""
+    assert watch.step(NORMAL, DT) == "the robot reports 2 joints, and 0 before"
+
+
 def test_a_clock_that_stands_still_is_a_lost_connection() -> None:
     watch = RobotWatch(SafetyConfig(robot_stale_after_s=0.1))
     for k in range(100):

@@ -64,7 +64,7 @@ class RobotWatch:
         self._config = config
         self._time_s = -inf
         self._still_s = 0.0
-        self._joints = 0
+        self._joints: int | None = None
 
     def step(self, reading: RobotReading, dt: float) -> str:
         """Why no command may follow, in words; empty when all is well.
@@ -82,7 +82,8 @@ class RobotWatch:
             return f"the robot has not taken a command for {reading.waiting_s:.2f} s"
         if reading.stopped:
             return reading.stopped
-        self._joints = self._joints or len(reading.joints)
+        if self._joints is None:
+            self._joints = len(reading.joints)
         if len(reading.joints) != self._joints:
             return f"the robot reports {len(reading.joints)} joints, and {self._joints} before"
         if not all(map(isfinite, reading.joints)):
