@@ -27,6 +27,7 @@ COMMANDS = {
     "export": ("acts_tools.export.command", "write touch of a bag as csv, npz, parquet or LeRobot dataset"),
     "view": ("acts_tools.view", "show touch on a page in the browser"),
     "echo": ("acts_tools.echo.command", "print the messages of a topic"),
+    "pub": ("acts_tools.pub.command", "publish a message again and again"),
     "listen": ("acts_tools.listen.command", "measure loss and delay of a topic on this machine"),
     "driver": ("acts_tools.driver.command", "control a running driver: query, calibrate, tare, set"),
     "param": ("acts_tools.parameters.command", "show and set parameters of a running node"),
