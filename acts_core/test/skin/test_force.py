@@ -41,7 +41,12 @@ def test_saturated_counts_give_a_finite_force() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"full_scale_counts": 0.0}, {"full_scale_counts": 2000.0}, {"dead_n": -1.0}, {"half_n": 0.0}]
+    "wrong",
+    [
+        *({"full_scale_counts": wrong} for wrong in (0.0, 1024.0, np.nan)),
+        *({"dead_n": wrong} for wrong in (-1.0, np.inf, np.nan)),
+        *({"half_n": wrong} for wrong in (0.0, np.inf, np.nan)),
+    ],
 )
 def test_impossible_response_is_refused_by_name(wrong: dict[str, float]) -> None:
     with pytest.raises(SettingsError, match=next(iter(wrong))):
@@ -84,6 +89,17 @@ def test_a_table_that_a_spreadsheet_has_saved_is_read(tmp_path: Path) -> None:
     path = tmp_path / "response.csv"
     path.write_bytes(b"\xef\xbb\xbfnewtons,counts\r\n0.1,0\r\n1,300\r\n")
     assert MeasuredForceResponse.from_file(path).force_n(300.0) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("newtons", "counts"), [([0.1, 0.5, 0.9], [50.0, 400.0, 1023.0]), ([2.0, 5.0], [0.5, 900.0])])
+def test_below_the_first_point_of_a_measured_response_forces_are_interpolated_from_0(
+    newtons: list[float], counts: list[float]
+) -> None:
+    response = MeasuredForceResponse(np.array(newtons), np.array(counts))
+    assert response.force_n([0.0, 0.5 * counts[0], *counts]) == pytest.approx([0.0, 0.5 * newtons[0], *newtons])
+    assert response.counts([0.0, 0.5 * newtons[0], *newtons]) == pytest.approx([0.0, 0.5 * counts[0], *counts])
+    # Where a contact lies is weighted by it.
+    assert 0.0 < force_table(response)[0] < 1e-6
 
 
 def test_no_force_of_the_table_is_0_where_a_measured_response_begins_with_counts() -> None:
