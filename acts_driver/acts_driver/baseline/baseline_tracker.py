@@ -292,8 +292,6 @@ class BaselineTracker:
     def below(self) -> int:
         """Number of taxels that read lower than drift explains, as when what lay there at a tare was taken off."""
         with self._lock:
-            if self._source is None or self._whole < 1:
-                return 0
             readings = _readings([self._blocks[self._growing - 1]])
             low = readings.mean < self._baseline - self._freeze
             return int(np.count_nonzero((readings.n > 0) & (self._freeze >= 0) & low))
