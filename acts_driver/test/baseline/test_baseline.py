@@ -196,6 +196,31 @@ def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:
     assert skin.tracker.below() == 4
 
 
+def test_a_tare_is_of_the_last_readings_alone() -> None:
+    """Of 0.2 to 0.4 s, as soon as there are so many."""
+    skin = Skin(noise=0.0)
+    skin.run(0.21)
+    assert skin.tracker.tare().measured == SIZE
+    skin.run(1.79)
+    skin.run(0.4, skin.pressed())
+    tare = skin.tracker.tare()
+    assert tare.unsteady == 0
+    assert (tare.baseline.counts == skin.pressed()).all()
+
+
+def test_taxels_that_were_not_measured_lately_are_not_told_to_read_low() -> None:
+    skin = Skin()
+    skin.field += 100
+    skin.run(2.0)
+    skin.tracker.tare()
+    skin.field -= 100
+    skin.m = 1  # one taxel, the same in every frame
+    for _ in range(50):
+        skin.frames = 0
+        skin.run(0.01)
+    assert skin.tracker.below() == 1
+
+
 def test_a_tare_tells_what_moved_meanwhile() -> None:
     skin = Skin()
     skin.run(2.0)
@@ -237,6 +262,47 @@ def test_drift_is_followed_but_not_where_the_skin_is_touched() -> None:
     present = skin.tracker.present()
     assert present is not None
     assert np.abs(present.counts - 29).max() < 1.5
+
+
+@pytest.mark.parametrize(("noise", "touch_counts", "further"), [(1.5, 60, 30), (25.0, 60, 110), (1.5, 5, 30)])
+def test_what_is_farther_from_the_baseline_than_drift_is_not_followed(
+    noise: float, touch_counts: int, further: int
+) -> None:
+    """As far as 20 counts or 6 sigmas of the noise, but no farther than what the board takes for a touch."""
+    skin = Skin(BaselineConfig(touch_counts, tare_s=0.2, calibration_blocks=5, tau_s=5.0, hold_s=0.5), noise=noise)
+    skin.field += 200
+    skin.run(2.0)
+    before = skin.tracker.tare().baseline.counts
+    skin.noise = 0.0
+    skin.run(10.0, skin.field + further)
+    present = skin.tracker.present()
+    assert present is not None
+    assert (present.counts == before).all()
+
+
+@pytest.mark.parametrize(("noise", "touch_counts", "moved"), [(0.0, 5, 19), (0.0, 60, 19), (8.0, 60, 10)])
+def test_drift_is_followed_however_light_a_touch_is_and_however_large_the_noise(
+    noise: float, touch_counts: int, moved: int
+) -> None:
+    skin = Skin(BaselineConfig(touch_counts, tare_s=0.2, tau_s=5.0, hold_s=0.5), noise=noise)
+    skin.field += 200
+    skin.run(2.0)
+    skin.tracker.tare()
+    skin.run(30.0, skin.field + moved)
+    present = skin.tracker.present()
+    assert present is not None
+    assert np.abs(present.counts - skin.field - moved).max() < 1.5
+
+
+def test_a_taxel_that_was_not_measured_for_long_does_not_follow_its_first_reading_at_once() -> None:
+    skin = Skin(noise=0.0)
+    skin.run(2.0)
+    skin.tracker.calibrate()
+    skin.now_ns += 3600 * 10**9
+    skin.run(0.01, skin.field + 10)
+    present = skin.tracker.present()
+    assert present is not None
+    assert present.counts == pytest.approx(np.full((ROWS, COLS), 20.5))
 
 
 @pytest.mark.parametrize(("counts", "tau_s"), [(700, 600.0), (40, 36_000.0)])

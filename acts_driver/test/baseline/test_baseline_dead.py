@@ -63,11 +63,15 @@ def test_taxels_beside_a_dead_row_follow_their_drift() -> None:
     skin = Skin(f"row={OPEN_ROW}")
     skin.run(2.0)
     skin.tracker.calibrate()
+    assert skin.tracker.drift() is None
     skin.run(20.0, counts=25.0)
-    present = skin.tracker.present()
+    present, drift = skin.tracker.present(), skin.tracker.drift()
     assert present is not None
     np.testing.assert_allclose(np.delete(present.counts, OPEN_ROW, axis=0), 25.0, atol=0.5)
     assert skin.tracker.below() == 0
+    # What the open row reads is no drift: of the others 5 counts in 20 s.
+    assert drift is not None
+    assert (drift.median, drift.largest) == pytest.approx((15.0, 15.0), abs=1.5)
 
 
 def test_a_touch_across_a_dead_row_is_a_touch() -> None:
