@@ -212,16 +212,16 @@ class FootTracker:
         return told + self._load() if share > self.config.loaded_share else told
 
     def _load(self) -> tuple[Step, ...]:
-        """The foot carries. Where it was not lifted for long enough, what was over goes on."""
+        """The foot carries. Where it was not lifted for long enough, what was over goes on, known or not."""
         self._phase, rise = _Phase.LOADED, self._rise
         if rise is None or self._lightest is None:
-            self._stance = None
             return ()
         swing_s = rise.time_s - self._lifted_at.time_s if self._lifted_at is not None else None
-        if self._over is not None and swing_s is not None and swing_s < self.config.shortest_s:
-            self._stance, self._over = self._over[0], None
-            self._bins = deque((*self._stance.bins, *self._bins), maxlen=_LONGEST_PATH)
-            self._peak = max(self._peak, self._stance.peak)
+        if swing_s is not None and swing_s < self.config.shortest_s:
+            if self._over is not None:
+                self._stance, self._over = self._over[0], None
+                self._bins = deque((*self._stance.bins, *self._bins), maxlen=_LONGEST_PATH)
+                self._peak = max(self._peak, self._stance.peak)
             return ()
         told = self._confirmed(math.inf)
         self._stance = _Stance(rise, swing_s, self._lightest)

@@ -55,6 +55,8 @@ def test_steps_are_found_at_any_rate_in_any_unit(rate_hz: float, within_s: float
     assert steps[0].swing_s is None
     assert all(0.0 < step.strike_sd_s < 1.0 / rate_hz + 0.01 for step in steps)
     assert [step.peak_force for step in steps] == pytest.approx([unit] * 9, rel=0.02)
+    # Of faster samples a hundredth of a second is averaged.
+    assert all(np.diff(step.time_s).min() > 0.009 for step in steps)
 
 
 @pytest.mark.parametrize("rate_hz", [8.0, 200.0])
@@ -133,6 +135,62 @@ def test_a_short_dip_after_which_the_force_rises_slowly_does_not_end_a_step() ->
     assert [step.stance_s for step in steps] == pytest.approx([STANCE_S - 0.5 * RAMP_S] * 17, abs=0.01)
 
 
+@pytest.mark.parametrize("dip_s", [0.04, 0.3])
+def test_a_foot_that_stood_as_it_began_makes_no_step_by_a_short_dip(dip_s: float) -> None:
+    """Since when it stands is not known; after a swing it is."""
+    begin_s = FIRST_S + STRIDE_S + STANCE_S / 2
+    time_s = times_s(100.0)
+    time_s = time_s[time_s > begin_s]
+    force = np.where(time_s < begin_s + 3 * STRIDE_S, 1.0, walked(time_s))
+    force[(time_s > begin_s + 1.0) & (time_s < begin_s + 1.0 + dip_s)] = 0.0
+    steps = steps_of(time_s, force)
+    is_swing = dip_s > 0.08
+    strikes_s = [begin_s + 1.0 + dip_s] * is_swing + [FIRST_S + 0.025 + STRIDE_S * number for number in range(5, 9)]
+    assert [step.strike_s for step in steps] == pytest.approx(strikes_s, abs=0.01)
+    assert steps[0].swing_s == pytest.approx(dip_s if is_swing else STRIDE_S - STANCE_S + 0.05, abs=0.03)
+
+
+def test_a_touch_that_is_too_short_is_no_step_and_ends_no_swing() -> None:
+    time_s = times_s(100.0)
+    force = walked(time_s)
+    swing_s = (time_s - FIRST_S) % STRIDE_S - STANCE_S
+    force[(np.abs(swing_s - 0.2) < 0.025) & (time_s > FIRST_S)] = 1.0
+    steps = steps_of(time_s, force)
+    assert [step.stance_s for step in steps] == pytest.approx([STANCE_S - 0.5 * RAMP_S] * 9, abs=0.01)
+    assert [step.swing_s for step in steps[1:]] == pytest.approx([STRIDE_S - STANCE_S + 0.05] * 8, abs=0.01)
+
+
+def test_a_start_that_was_broken_off_teaches_nothing() -> None:
+    tracker, time_s = FootTracker(), times_s(100.0)
+    for at_s in times_s(100.0, 1.5):
+        assert tracker.step(at_s, 100.0) == ()
+    told = [
+        step for at_s, value in zip(2.5 + time_s, walked(time_s), strict=True) for step in tracker.step(at_s, value)
+    ]
+    strikes_s = [2.5 + step.strike_s for step in steps_of(time_s, walked(time_s))]
+    assert [step.strike_s for step in told] == pytest.approx(strikes_s, abs=1e-6)
+
+
+def test_what_has_been_learnt_is_kept_over_a_gap() -> None:
+    tracker, time_s = FootTracker(), times_s(100.0, 6.0)
+    for at_s, value in zip(time_s, walked(time_s), strict=True):
+        tracker.step(at_s, value)
+    learnt = tracker.loads
+    assert learnt is not None
+    tracker.step(10.0, 0.5)
+    assert tracker.loads == learnt
+
+
+def test_what_was_before_the_time_that_is_learnt_from_is_forgotten() -> None:
+    """Also of a foot that has never lifted: it may stand for days."""
+    time_s = times_s(50.0, 90.0)
+    force = np.where(time_s < 60.0, 1.0, walked(time_s))
+    force[(time_s > 10.0) & (time_s < 10.12)] = 0.0
+    steps = steps_of(time_s, force)
+    assert len(steps) > 15
+    assert steps[0].strike_s > 60.0
+
+
 def test_steps_around_a_gap_are_left_out() -> None:
     time_s = times_s(50.0)
     begin_s = FIRST_S + 4 * STRIDE_S + 0.3
@@ -167,6 +225,7 @@ def test_samples_that_are_no_numbers_or_come_late_are_left_out() -> None:
         steps += tracker.step(at_s, value)
         assert tracker.step(at_s + 0.001, float("nan")) == ()
         assert tracker.step(at_s - 0.1, 77.0) == ()
+        assert tracker.step(at_s, 77.0) == ()
     assert len(steps) == 9
 
 
