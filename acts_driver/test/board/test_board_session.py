@@ -17,6 +17,7 @@ import pytest
 from board_host import SIZE, Host
 from pty_board import PtyBoard, wait_for
 from virtual_board import VirtualBoard
+from waiting import pause
 
 from acts_core.errors import BoardError, SettingsError
 from acts_core.wire import BoardMessage, BoardModel, BoardSettings, BoardState, Reply, ReplyStatus
@@ -24,6 +25,7 @@ from acts_core.wire.board_models import ModelKind
 from acts_core.wire.commands import NO_MODEL, HeldModel
 from acts_core.wire.packets import PacketType
 from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus
+from acts_driver.board.dialogue import NoAnswerError, RefusedError
 from acts_driver.board.model_file import load_model
 from acts_driver.board.session import FIRMWARE
 
@@ -225,6 +227,71 @@ def test_the_end_of_an_upload_that_is_read_after_a_later_answer_is_of_no_restart
     assert link.settings.m == 55, "its own settings were not mistaken"
 
 
+class FullLink(OtherLink):
+    """A way to an imagined board that has no room for models."""
+
+    def announce(self, model: BoardModel) -> Reply:
+        raise RefusedError(replace(self.query(), status=ReplyStatus.MODEL_IMPOSSIBLE))
+
+
+def test_a_model_that_the_board_cannot_hold_leaves_the_old_wish(tmp_path: Path) -> None:
+    path = tmp_path / "model.npz"
+    np.savez(path, atoms=np.eye(64))
+    link = FullLink()
+    session = BoardSession(link, BoardParameters(m=64), size=SIZE, log=lambda level, words: None)
+    session.start()
+    wait_for(lambda: link.settings.m == 64, "the settings")
+    with pytest.raises(RefusedError):
+        session.change(BoardParameters(m=32, model=str(path)))
+    wait_for(lambda: link.settings.m == 64, "the settings of before")
+    session.stop()
+    assert session.status.problem == ""
+
+
+class ReplacedLink(OtherLink):
+    """A way to an imagined board that is replaced by one with other firmware during an upload."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.version = (*FIRMWARE, 0)
+        self.asked = self.uploads = 0
+
+    def query(self) -> Reply:
+        self.asked += 1
+        reply = super().query()
+        return replace(reply, state=replace(reply.state, firmware_version=self.version))
+
+    def announce(self, model: BoardModel) -> Reply:
+        return self.query()
+
+    def upload(self, model: BoardModel, is_wanted: Callable[[], bool] = lambda: True) -> Reply:
+        self.uploads += 1
+        self.board_id, self.version = 8, (9, 0, 0)
+        raise NoAnswerError("unplugged")
+
+
+def test_no_model_is_uploaded_to_a_board_with_other_firmware_in_the_place_of_the_one_that_was_to_get_it(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "model.npz"
+    np.savez(path, atoms=np.eye(64))
+    link = ReplacedLink()
+    session = BoardSession(link, BoardParameters(), size=SIZE, log=lambda level, words: None)
+    session.start()
+    assert session.wait_for_verdict(20.0)
+    session.change(BoardParameters(model=str(path)))
+    wait_for(lambda: session.status.is_wrong_version, "the other firmware")
+    n_before = link.asked
+
+    def ask() -> None:
+        session.wake()
+        pause()
+
+    wait_for(lambda: link.asked > n_before + 3, "questions", meanwhile=ask)
+    session.stop()
+    assert link.uploads == 1
+
+
 def test_another_board_in_the_place_of_the_one_before_is_told() -> None:
     link, log = OtherLink(), []
     session = BoardSession(link, BoardParameters(), size=SIZE, log=lambda level, words: log.append((level, words)))
@@ -262,14 +329,28 @@ def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
     assert "the board measures 32 x 32 taxels, the parameters rows and cols say 16 x 24" in session.status.problem
 
 
-def test_a_silent_board_may_be_listened_to(tmp_path: Path) -> None:
+def test_a_silent_board_may_be_listened_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = [0]
+    query = BoardLink.query
+
+    def counted_query(link: BoardLink) -> Reply:
+        asked[0] += 1
+        return query(link)
+
+    monkeypatch.setattr(BoardLink, "query", counted_query)
     with PtyBoard(tmp_path) as board:
         host = Host(board.path, reply_timeout_s=0.02)
         session = host.start_session(m=64)
         assert session.may_publish
         assert session.status == BoardStatus(problem=session.status.problem, is_silent=True)
         # Once, however often it is asked.
-        session.wake()
+        n_before = asked[0]
+
+        def ask() -> None:
+            session.wake()
+            pause()
+
+        wait_for(lambda: asked[0] > n_before + 3, "questions", meanwhile=ask)
         assert sum(line.endswith("the parameters about the board are not in force") for line in host.log) == 1
         with pytest.raises(BoardError, match="does not answer"):
             session.change(BoardParameters(m=32))
