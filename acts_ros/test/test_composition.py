@@ -98,7 +98,7 @@ def test_what_is_wrong_with_a_params_file_is_told(tmp_path: Path, content: bytes
     path = tmp_path / "params.yaml"
     path.write_bytes(content)
     with pytest.raises(SettingsError, match=rf"'--params-file {path}'.*; .*{said}") as caught:
-        given("--ros-args", "--params-file", str(path))
+        given("--ros-args", "-p", "word:=two", "--params-file", str(path))
     assert "\n" not in str(caught.value)
 
 
@@ -109,7 +109,7 @@ def test_a_folder_is_no_params_file(tmp_path: Path) -> None:
 
 def test_how_an_empty_text_is_given_to_ros_is_told() -> None:
     with pytest.raises(SettingsError, match=r"""'-p word:='.*; an empty text is written word:="''"$"""):
-        given("--ros-args", "-p", "word:=")
+        given("--ros-args", "-p", "right:word:=two", "-p", "word:=")
 
 
 def test_a_namespace_that_cannot_be_is_refused() -> None:
