@@ -111,6 +111,8 @@ def test_the_leap_teams_node_takes_no_hand_of_another_number_of_joints() -> None
 def test_another_hand_is_not_held_with_a_force_at_which_fingers_give_way() -> None:
     with pytest.raises(SettingsError, match=r"hand_to_hand_force_n = 5: .* less than 5\.1"):
         HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=8.5)
+    with pytest.raises(SettingsError, match=r"hand_to_hand_deadband_n = 0\.5 it has to be less than 5\.4"):
+        HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=9.0, hand_to_hand_deadband_n=0.5)
     assert HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=9.0).hand_to_hand_force_n == 5.0
 
 

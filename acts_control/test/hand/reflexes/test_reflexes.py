@@ -182,10 +182,30 @@ def test_a_small_sphere_is_pressed_where_it_is_and_slip_has_no_say() -> None:
     assert {NAMES[k].split("_")[0] for k in np.flatnonzero(wish.steps)} == {"middle"}
     assert wish.claimed is not None
     assert wish.claimed.all()
+    # Also where the palm does not feel it just now; where no finger touches it any more the others have their say.
+    assert reflex.step(sensed(held)) is not None
+    assert reflex.step(sensed(palm)) is None
 
 
-def test_what_is_larger_is_not_trapped() -> None:
+@pytest.mark.parametrize(("force_n", "side"), [(0.3, 1.0), (2.0, 0.0), (4.0, -1.0)])
+def test_a_finger_presses_a_small_sphere_harder_or_yields_until_it_presses_as_it_should(
+    force_n: float, side: float
+) -> None:
+    reflex = Trapping(TrappingConfig(trap_force_n=2.0))
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    pose = sensed().pose
+    at = pose.point(tip.link, tip.centre_m)
+    held = region("middle_distal", force_n, centre_m=tip.centre_m, normal=tip.normal)
+    now = sensed(region("palm", 0.2, centre_m=(at[0], at[1], at[2] + 0.020), normal=(0.0, 0.0, -1.0)), held)
+    wish = reflex.step(now)
+    assert wish is not None
+    moves = pose.jacobian(tip.link, at) @ (wish.steps * now.step_rad_s)
+    assert np.sign(moves @ pose.direction(tip.link, tip.normal)) == side
+
+
+def test_what_is_larger_or_was_not_felt_by_the_palm_is_not_trapped() -> None:
     reflex = Trapping(TrappingConfig())
+    assert reflex.step(sensed(region("middle_distal", 0.3))) is None
     tip = LEAP_RIGHT.regions["middle_distal"]
     at = sensed().pose.point(tip.link, tip.centre_m)
     palm = region("palm", 1.0, centre_m=(at[0], at[1], at[2] + 0.060), normal=(0.0, 0.0, -1.0))
@@ -206,6 +226,30 @@ def test_force_goes_from_phalanges_with_much_to_those_with_little() -> None:
 
 
 @pytest.mark.parametrize(
+    ("force_n", "steps"),
+    [(0.45, 0.33), (0.85, 0.0), (1.15, 0.0), (1.5, -0.3), (5.5, -2.0)],
+)
+def test_a_phalanx_closes_or_opens_by_what_it_lacks_or_presses_too_much(force_n: float, steps: float) -> None:
+    """Not by little, and never by more than is allowed at once."""
+    reflex = HandToHand(
+        HandToHandConfig(
+            hand_to_hand_force_n=1.0,
+            hand_to_hand_steps_per_n=0.6,
+            hand_to_hand_deadband_n=0.2,
+            hand_to_hand_max_steps=2.0,
+        )
+    )
+    # The second one asks for a step in each case.
+    wish = reflex.step(sensed(region("index_medial", force_n), region("middle_medial", 0.5)))
+    assert wish is not None
+    assert wish.steps[PIP] == pytest.approx(steps)
+    assert wish.steps[DIP] == pytest.approx(0.3 * LEAP_RIGHT.fingers["index"].closes["index_dip"]), "looks for touch"
+    assert wish.why == "force shared among 2 phalanges"
+    assert wish.claimed is not None
+    assert not wish.claimed.any()
+
+
+@pytest.mark.parametrize(
     "contact",
     [
         region("ring_medial", 12.0),
@@ -217,7 +261,11 @@ def test_a_finger_gives_way_above_the_comfort_limit_of_force_or_pressure(contact
     reflex = HandToHand(HandToHandConfig(hand_to_hand_max_force_n=10.0, hand_to_hand_max_pressure_n_m2=3e5))
     wish = reflex.step(sensed(contact))
     assert wish is not None
-    assert (wish.steps[joints_of("ring")] < 0.0).all()
+    # As fast as is allowed, whatever its other phalanges look for; nobody else closes it.
+    fastest = HandToHandConfig().hand_to_hand_max_steps * sensed().closing("ring")
+    assert wish.steps == pytest.approx(-fastest)
+    assert wish.claimed is not None
+    assert np.flatnonzero(wish.claimed).tolist() == joints_of("ring")
     assert wish.why == "ring gives way"
 
 

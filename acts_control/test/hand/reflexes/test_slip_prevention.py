@@ -62,6 +62,26 @@ def test_the_added_grip_is_eased_slowly_to_a_share_and_above_where_it_slipped_ag
     assert reflex.state.added == pytest.approx((eased + reflex.state.peak) / 2)
 
 
+def test_no_joint_is_eased_to_where_it_did_not_hold() -> None:
+    """Of the last 0.1 rad that were added since it slipped again half is kept, and of the 0.2 rad before that all."""
+    reflex = SlipPrevention(SlipPreventionConfig(slip_keep_s=0.1, slip_kept_share=0.5))
+
+    def steps(time_s: float, goal_rad: float, felt: RegionContact) -> np.ndarray | None:
+        wish = reflex.step(sensed(felt, time_s=time_s, goal_rad=np.full(16, goal_rad)))
+        return None if wish is None else wish.steps[joints_of("index")]
+
+    held = region("index_distal", 0.5)
+    steps(0.0, 0.0, slipping("index_distal", 2e-4))
+    steps(0.03, 0.2, held)
+    steps(0.05, 0.2, slipping("index_distal", 2e-4))
+    steps(0.07, 0.3, held)
+    for time_s, goal_rad, is_eased in ((0.2, 0.26, True), (0.21, 0.24, False)):
+        eased = steps(time_s, goal_rad, held)
+        assert eased is not None
+        assert (eased < 0.0).all() == is_eased
+        assert eased.any() == is_eased
+
+
 def test_no_more_is_eased_than_was_added_where_the_goals_could_not_follow() -> None:
     hand = RigidHand(("slip", SlipPrevention(SlipPreventionConfig())))
     hand.supervisor.restart(recovered=False)
