@@ -49,11 +49,20 @@ def test_packets_survive_any_cutting(sent: list[tuple[PacketType, bytes]], data:
 
 
 @settings(deadline=None)
-@given(st.binary(max_size=300))
-def test_garbage_is_refused_or_waited_for(garbage: bytes) -> None:
+@given(packets, st.binary(max_size=300))
+def test_garbage_is_refused_or_waited_for(sent: list[tuple[PacketType, bytes]], garbage: bytes) -> None:
+    reader = PacketReader()
+    assert reader.feed(b"".join(encode(kind, payload) for kind, payload in sent)) == sent
     with contextlib.suppress(PacketError):
-        for kind, payload in PacketReader().feed(garbage):
-            assert encode(kind, payload) in garbage
+        found = b"".join(encode(kind, payload) for kind, payload in reader.feed(garbage))
+        assert garbage.startswith(found)
+
+
+@settings(deadline=None)
+@given(packets, st.binary(max_size=2))
+def test_what_is_not_whole_yet_is_waited_for(sent: list[tuple[PacketType, bytes]], begun: bytes) -> None:
+    stream = b"".join(encode(kind, payload) for kind, payload in sent)
+    assert PacketReader().feed(stream + begun) == sent
 
 
 @pytest.mark.parametrize("header", [b"\x00\x00V", b"\x00\x02V", b"GET", b"\x00\x03\x00"])
