@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 from acts_core.frames import SampleFrame
@@ -14,6 +15,7 @@ from acts_core.wire.board_settings import SETTINGS_SIZE
 from acts_core.wire.commands import NO_MODEL, encode_reply
 from acts_core.wire.packets import PacketType, seal, unseal
 from acts_driver.board import BoardLink, BoardParameters, BoardSession
+from acts_driver.board.session import FIRMWARE
 from acts_driver.port import Reader, SerialSource
 
 SIZE = (32, 32)
@@ -131,3 +133,24 @@ class OtherBoard:
         _, known = unseal(cobs.decode(encode_reply(Reply(request, kind, ReplyStatus.OK, 0, state))[:-1]))
         before_model = 32 + SETTINGS_SIZE
         self._decoder.feed(seal(PacketType.REPLY, known[:before_model] + bytes(2) + known[before_model:]))
+
+
+class OtherLink(BoardLink):
+    """A way to an imagined board, or to another one in its place, that may be reset just before it is told settings."""
+
+    def __init__(self) -> None:
+        super().__init__(lambda data, timeout_s: None)
+        self.board_id, self.settings = 7, BoardSettings(m=55)
+        self.started_s = time.monotonic() - 100.0
+        self.is_reset_by_configuring = False
+
+    def query(self) -> Reply:
+        uptime_us = int((time.monotonic() - self.started_s) * 1e6)
+        state = BoardState((*FIRMWARE, 0), self.board_id, uptime_us, self.settings, False, False, NO_MODEL, 0, 0, 0, 0)
+        return Reply(0, PacketType.QUERY, ReplyStatus.OK, 0, state)
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        if self.is_reset_by_configuring:
+            self.is_reset_by_configuring, self.started_s = False, time.monotonic()
+        self.settings = settings
+        return self.query()
