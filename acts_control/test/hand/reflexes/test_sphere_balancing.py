@@ -19,7 +19,7 @@ from acts_control.hand.description import LEAP_RIGHT, HandKinematics
 from acts_control.hand.reflexes import HandState, Sensed, Wish
 from acts_control.hand.reflexes.base import Reflex
 from acts_control.hand.reflexes.sphere_balancing import SphereBalancing, SphereBalancingConfig
-from acts_control.hand.reflexes.spheres.aiming import turned, unit
+from acts_control.hand.reflexes.spheres.aiming import press, turned, unit
 from acts_control.hand.reflexes.spheres.ball import Ball, felt_ball
 from acts_control.hand.reflexes.spheres.pinching import Pinching
 from acts_control.hand.reflexes.spheres.rolling import Phase, Rolling
@@ -139,15 +139,19 @@ def test_a_sphere_is_at_the_centre_once_it_has_been_there_for_a_while() -> None:
     rolling = Rolling("thumb")
     assert rolled(rolling, 0.1, thumb_at(0.95), is_off=False) is Phase.ROLLING
     assert rolled(rolling, 0.2, thumb_at(0.95), is_off=False) is Phase.CENTRED
+    # Where no finger touches it, it may roll on.
+    assert rolled(Rolling("thumb"), 0.3, None, is_off=False) is Phase.ROLLING
 
 
 @pytest.mark.parametrize(
     ("touching", "seconds"),
-    [(thumb_at(0.3), 0.2), (None, 4.5), (thumb_at(0.95), 4.5)],
+    [(thumb_at(0.3), 0.2), (None, 3.0), (thumb_at(0.95), 4.5)],
     ids=["too low", "finds nothing", "takes too long"],
 )
 def test_rolling_is_given_up(touching: RegionContact | None, seconds: float) -> None:
-    assert rolled(Rolling("thumb"), seconds, touching) is Phase.GIVEN_UP
+    rolling = Rolling("thumb")
+    assert rolled(rolling, 0.4 * seconds, touching) is Phase.ROLLING
+    assert rolled(rolling, 0.6 * seconds, touching) is Phase.GIVEN_UP
 
 
 # --- the reflex while the hand closes
@@ -214,10 +218,13 @@ def test_a_spread_of_nothing_is_refused() -> None:
 # --- pinching
 
 
-def pinched(*pressed: RegionContact, seconds: float) -> tuple[Pinching, np.ndarray]:
+def pinched(
+    *pressed: RegionContact, seconds: float, off_m: np.ndarray | tuple[float, ...] = (0.0, 0.0, 0.0)
+) -> tuple[Pinching, np.ndarray]:
+    """A sphere that was at the centre when it began to be gripped, and is felt at `off_m` from there."""
     pinching, q = Pinching(ball(0.021, np.zeros(3)), 0.6), ROUND.copy()
     for _ in range(round(seconds / DT_S)):
-        now = closing(on_palm(np.zeros(3)), *pressed, q_rad=q)
+        now = closing(on_palm(np.array(off_m)), *pressed, q_rad=q)
         q = np.clip(q + pinching.step(now) * DT_S, LEAP_RIGHT.lower_rad, LEAP_RIGHT.upper_rad)
     return pinching, q
 
@@ -228,6 +235,36 @@ def test_the_middle_finger_comes_over_a_small_sphere_and_those_beside_it_stay() 
     assert np.linalg.norm(tip_m(q, "middle") - top) < 0.3 * np.linalg.norm(tip_m(ROUND, "middle") - top)
     beside = [k for k, name in enumerate(NAMES) if name.startswith(("index", "ring"))]
     assert q[beside] == pytest.approx(ROUND[beside])
+
+
+def test_the_thumb_waits_beside_a_small_sphere_until_the_finger_over_it_touches_and_then_comes_against_it() -> None:
+    middle_m = CENTRE_M + 0.021 * UP
+    _, q = pinched(seconds=1.4)
+    assert np.linalg.norm(tip_m(q, "thumb") - middle_m) == pytest.approx(0.035, abs=0.001)
+    _, q = pinched(region("middle_distal", 0.3), seconds=1.4)
+    assert np.linalg.norm(tip_m(q, "thumb") - middle_m) < 0.016
+    # One that touches nothing goes 8 mm into where the sphere should be, and no farther.
+    _, q = pinched(seconds=2.4)
+    assert np.linalg.norm(tip_m(q, "middle") - middle_m) == pytest.approx(0.013, abs=0.001)
+
+
+def test_a_small_sphere_is_followed_where_the_palm_feels_it() -> None:
+    off_m = np.array([0.006, 0.0, 0.0])
+    _, q = pinched(seconds=2.4, off_m=off_m)
+    middle_m = CENTRE_M + off_m + 0.021 * UP
+    assert np.linalg.norm(tip_m(q, "middle") - middle_m) == pytest.approx(0.013, abs=0.001)
+
+
+def test_a_finger_that_touches_a_small_sphere_presses_with_its_tip_until_it_grips() -> None:
+    pinching = Pinching(ball(0.021, np.zeros(3)), 0.6)
+    felt = [region("middle_medial", 0.1), region("middle_distal", 0.2), region("thumb_distal", 0.7)]
+    now = closing(on_palm(np.zeros(3)), *felt)
+    # The thumb makes room first.
+    pinching._has_room = True
+    assert pinching.step(now) == pytest.approx(press(now, felt[1], 0.010))
+    # Both parts of the finger together are enough.
+    now = closing(on_palm(np.zeros(3)), region("middle_medial", 0.5), *felt[1:])
+    assert not pinching.step(now).any()
 
 
 def test_pinching_ends_with_a_grip_of_both_or_after_a_while_without() -> None:
