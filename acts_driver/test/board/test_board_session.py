@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -23,6 +24,7 @@ from acts_core.wire.board_models import ModelKind
 from acts_core.wire.commands import NO_MODEL
 from acts_core.wire.packets import PacketType
 from acts_driver.board import BoardLink, BoardParameters, BoardSession, BoardStatus
+from acts_driver.board.dialogue import RefusedError
 from acts_driver.board.model_file import load_model
 from acts_driver.board.session import FIRMWARE
 
@@ -158,6 +160,41 @@ def test_what_a_board_is_told_that_was_reset_in_the_midst_of_the_dialogue_is_not
     session.change(BoardParameters())
     session.stop()
     assert link.settings.m == 55
+
+
+class RefusingLink(OtherLink):
+    """A way to an imagined board that takes no settings."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked = self.told = 0
+
+    def query(self) -> Reply:
+        self.asked += 1
+        return super().query()
+
+    def configure(self, settings: BoardSettings) -> Reply:
+        self.told += 1
+        raise RefusedError(replace(super().query(), status=ReplyStatus.SETTING_REFUSED))
+
+
+def test_what_a_board_refuses_it_is_not_told_again_and_again() -> None:
+    link = RefusingLink()
+    session = BoardSession(link, BoardParameters(m=64), size=SIZE, log=lambda level, words: None)
+    session.start()
+    wait_for(lambda: session.status.problem, "the refusal")
+    n_before = link.asked
+
+    def ask() -> None:
+        session.wake()
+        pause()
+
+    wait_for(lambda: link.asked > n_before + 3, "questions", meanwhile=ask)
+    assert link.told == 1
+    with pytest.raises(RefusedError):
+        session.change(BoardParameters(m=63))
+    assert link.told >= 2, "another wish is"
+    session.stop()
 
 
 def test_another_board_in_the_place_of_the_one_before_is_told() -> None:

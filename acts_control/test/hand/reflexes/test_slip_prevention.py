@@ -107,6 +107,8 @@ def test_the_grip_that_is_added_has_an_end() -> None:
     for k in range(100):
         reflex.step(sensed(slipping("index_distal", 1e-4 * (k + 1)), time_s=k * DT_S))
     assert reflex.state.added == pytest.approx(3.0)
+    # It is one slip, and what held before is what there was when it began.
+    assert (reflex.events, reflex.state.floor) == (1, 0.0)
 
 
 ANSWERS = SlipPreventionConfig(
