@@ -277,12 +277,12 @@ class BaselineTracker:
                 return None
             now_ns, baseline = self._now_ns, self._baseline.copy()
             known = (self._freeze >= 0) & ~self._dead
-        if not self._history or now_ns < self._history[-1][0]:
-            self._history.clear()
-            self._history.append((now_ns, baseline))
-        elif now_ns - self._history[-1][0] >= _HISTORY_STEP_NS:
-            self._history.append((now_ns, baseline))
-        then_ns, then = self._history[0]
+            if not self._history or now_ns < self._history[-1][0]:
+                self._history.clear()
+                self._history.append((now_ns, baseline))
+            elif now_ns - self._history[-1][0] >= _HISTORY_STEP_NS:
+                self._history.append((now_ns, baseline))
+            then_ns, then = self._history[0]
         minutes = (now_ns - then_ns) / (60 * NS_PER_S)
         if now_ns - then_ns < _HISTORY_STEP_NS or not known.any():
             return None
