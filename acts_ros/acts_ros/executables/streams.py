@@ -1,10 +1,11 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Streams of a program that who started it has closed, as with ``>&- 2>&-``."""
+"""Streams of a program: those that who started it has closed, as with ``>&- 2>&-``, and those that lack characters."""
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 
@@ -16,6 +17,9 @@ def open_streams() -> None:
 
     Otherwise a port or a bag that is opened later takes the number of the stream, and gets what libraries in C write to
     that. ROS' executor also asks Python for the error stream.
+
+    A character that a stream has no bytes for, as in the name of a file, is written as its number (``\\xfc``): the
+    locale may be of another country, or the name in another encoding. It would end the program.
     """
     while (number := os.open(os.devnull, os.O_RDWR)) <= _STDERR:
         pass
@@ -23,3 +27,6 @@ def open_streams() -> None:
     # None where it was closed when Python started.
     sys.stdout = sys.stdout or os.fdopen(_STDOUT, "w", closefd=False)
     sys.stderr = sys.stderr or os.fdopen(_STDERR, "w", closefd=False)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="backslashreplace")

@@ -218,6 +218,22 @@ def test_what_a_command_opens_does_not_take_the_place_of_a_closed_stream(closed:
     assert int((tmp_path / "told.txt").read_text()) > 2
 
 
+@pytest.mark.parametrize(
+    ("encoding", "name", "written"),
+    [("ascii:strict", "gr\u00fcn", b"gr\\xfcn"), ("utf-8:strict", "gr\udcfcn", b"gr\\udcfcn")],
+    ids=["another locale", "name of another encoding"],
+)
+def test_a_name_that_the_output_has_no_characters_for_is_told(
+    encoding: str, name: str, written: bytes, tmp_path: Path
+) -> None:
+    """The command goes on; its work would be lost."""
+    words = [sys.executable, "-m", "acts_tools", "library", "--objects", "circle", "-o", name]
+    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+    said = subprocess.run(words, cwd=tmp_path, env=environment, check=True, capture_output=True).stdout
+    assert said.startswith(written + b": 1 object, 5 frames")
+    assert (tmp_path / name).is_file()
+
+
 def test_errors_are_one_line_on_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["launch", "--own", "/no/such.launch.xml"]) == 1
     assert capsys.readouterr().err == "error: the launch file '/no/such.launch.xml' does not exist\n"
