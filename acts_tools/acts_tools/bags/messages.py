@@ -123,10 +123,11 @@ def image_counts(image: Image, where: str) -> NDArray[np.uint16]:
     """
     data = bytes(image.data)
     step = image.step
-    if image.encoding != "mono16" or step < 2 * image.width or len(data) != step * image.height or not data:
+    is_whole = bool(data) and image.width > 0 and step >= 2 * image.width and len(data) == step * image.height
+    if image.encoding != "mono16" or not is_whole:
         raise RecordingError(
             f"{where} is an image {image.width} x {image.height}, "
-            f"{image.encoding}, of {len(data)} bytes: needed is mono16"
+            f"{image.encoding}, of {len(data)} bytes: needed is mono16, whole and of one pixel or more"
         )
     rows = np.frombuffer(data, dtype=np.uint8).reshape(image.height, step)[:, : 2 * image.width]
     frame = np.ascontiguousarray(rows).view(">u2" if image.is_bigendian else "<u2").astype(np.uint16)

@@ -111,6 +111,7 @@ def test_joint_states_without_names_are_none(tmp_path: Path) -> None:
             r"image of \(9, 8\)",
         ),
         ([("/plate/image_raw", Image(height=1, width=1, encoding="mono16", step=2, data=[0, 0]))], "have no stamp"),
+        ([("/plate/image_raw", Image(height=1, encoding="mono16", step=2, data=[0, 0]))], "image 0 x 1, .* one pixel"),
         (
             [("/plate/baseline", Baseline(rows=4, cols=4)), ("/plate/samples", samples(1, pressed(0)))],
             r"/plate/baseline in '.*b': a baseline of 4 x 4 taxels, the array has 32 x 32",
