@@ -93,6 +93,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingError(f"{len(bags)} bags: of several only a LeRobot dataset is made; export them one by one")
     if kind != "lerobot":
         refuse_unused(arguments, f"with --to {kind}", "task")
+    if not _is_text(arguments.task):
+        raise RecordingError(
+            f"--task {arguments.task!r}: needed is UTF-8, as a LeRobot dataset has it; give other words"
+        )
     output = _new_output(arguments)
     # Imported here, because they are slow to import and an invalid command line does not need them.
     from acts_tools.export.topics import Choice
@@ -147,6 +151,15 @@ def _folder_beside(output: Path) -> Iterator[Path]:
             # One in which there is something is kept by the system.
             with suppress(OSError):
                 parent.rmdir()
+
+
+def _is_text(words: str) -> bool:
+    """Whether a word of the command line can be written in UTF-8; a terminal of another encoding gives other ones."""
+    try:
+        words.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _rate_hz(arguments: argparse.Namespace) -> float:

@@ -146,7 +146,7 @@ class LeRobotWriter:
         self._write("meta/episodes/" + _FILE.format(chunk_index=0, file_index=0), episodes)
         tasks = pa.table({"task_index": pa.array([0], pa.int64()), "task": [self._task]})
         tasks = tasks.replace_schema_metadata({"pandas": json.dumps(_TASKS_FOR_PANDAS)})
-        self._pq.write_table(tasks, self._folder / "meta/tasks.parquet")
+        self._write_table("meta/tasks.parquet", tasks)
         all_statistics = pooled(self._statistics)
         self._write_json(
             "meta/stats.json",
@@ -183,9 +183,14 @@ class LeRobotWriter:
         return pa.FixedSizeListArray.from_arrays(column, values.shape[1])
 
     def _write(self, name: str, columns: dict[str, Any]) -> None:
+        self._write_table(name, self._pa.table(columns))
+
+    def _write_table(self, name: str, table: Any) -> None:
         path = self._folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        self._pq.write_table(self._pa.table(columns), path)
+        # pyarrow itself takes no path with a name in another encoding.
+        with path.open("wb") as file:
+            self._pq.write_table(table, file)
 
     def _write_json(self, name: str, content: dict[str, Any]) -> None:
         (self._folder / name).write_text(json.dumps(content, indent=4) + "\n")

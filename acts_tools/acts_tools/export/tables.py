@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator
+from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -26,8 +27,8 @@ def write_csv(recording: Recording, folder: Path) -> int:
     folder.mkdir(parents=True)
     n_rows = 0
     with (
-        (folder / "frames.csv").open("w", newline="") as frames,
-        (folder / "contacts.csv").open("w", newline="") as one,
+        (folder / "frames.csv").open("w", encoding="utf-8", newline="") as frames,
+        (folder / "contacts.csv").open("w", encoding="utf-8", newline="") as one,
     ):
         frame_lines, contact_lines = csv.writer(frames), csv.writer(one)
         contact_lines.writerow(("row", "time_s", *CONTACTS_COLUMNS))
@@ -80,7 +81,7 @@ def write_parquet(recording: Recording, folder: Path) -> int:
     folder.mkdir(parents=True)
     n_rows = 0
     writers: list[Any] = []
-    try:
+    with ExitStack() as opened:
         for rows in _batches(recording.rows()):
             columns, contacts = _columns(rows, recording, n_rows)
             shape = rows[0].image.shape
@@ -91,16 +92,13 @@ def write_parquet(recording: Recording, folder: Path) -> int:
             described = [field.with_metadata(size) if field.name == "image" else field for field in frames.schema]
             tables = [frames.cast(pa.schema(described)), pa.table(contacts)]
             if not writers:
-                writers = [
-                    pq.ParquetWriter(folder / f"{name}.parquet", table.schema)
-                    for name, table in zip(("frames", "contacts"), tables, strict=True)
-                ]
+                for name, table in zip(("frames", "contacts"), tables, strict=True):
+                    # pyarrow itself takes no path with a name in another encoding.
+                    file = opened.enter_context((folder / f"{name}.parquet").open("wb"))
+                    writers.append(opened.enter_context(pq.ParquetWriter(file, table.schema)))
             for writer, table in zip(writers, tables, strict=True):
                 writer.write_table(table)
             n_rows += len(rows)
-    finally:
-        for writer in writers:
-            writer.close()
     return n_rows
 
 

@@ -76,7 +76,8 @@ def write_bags(bags: Sequence[Path], kind: str, choice: Choice, task: str, path:
             notes += [f"{bag.resolve().name}: {sentence}\n" for sentence in recording.notes()]
     with naming(output):
         if notes and kind != "npz":
-            (path / _NOTES_FILE).write_text("".join(notes))
+            # A bag's name may be in another encoding.
+            (path / _NOTES_FILE).write_text("".join(notes), "utf-8", "surrogateescape")
         if dataset is not None:
             dataset.close()
 

@@ -13,6 +13,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
 from test_export import image, pressed, write_bag
 
@@ -114,4 +115,30 @@ sys.exit(main(["export", {str(bag)!r}, "--to", "csv", "-o", {str(tmp_path / "new
 """
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60.0, check=False)
     assert (ended.returncode, ended.stderr) == (130, "")
+    assert list(tmp_path.iterdir()) == [bag]
+
+
+@pytest.mark.parametrize("kind", ["csv", "npz", "parquet", "lerobot"])
+def test_names_in_another_encoding_than_utf_8_are_taken(kind: str, tmp_path: Path) -> None:
+    if kind in ("parquet", "lerobot"):
+        pytest.importorskip("pyarrow", reason="./acts run python3 -m pip install pyarrow")
+    # The second image is left out, so that there is something to note of the bag.
+    path = write_bag(tmp_path / "gr\udcfcn", *(("/plate/image_raw", image(n, pressed(n))) for n in (10, 10, 20)))
+    out = tmp_path / "\udcfc.npz"
+    words = [sys.executable, "-m", "acts_tools", "export", str(path), "--to", kind, "-o", str(out)]
+    note = "1 frame left out, not newer than one before: was a clock set?"
+    assert note.encode() in subprocess.run(words, capture_output=True, timeout=60.0, check=True).stderr
+    if kind == "npz":
+        with np.load(out) as arrays:
+            assert arrays["notes"].tolist() == [note]
+    else:
+        assert (out / "notes.txt").read_bytes() == b"gr\xfcn: " + note.encode() + b"\n"
+
+
+def test_a_task_in_another_encoding_is_refused_before_any_work(
+    bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["export", str(bag), "--to", "lerobot", "-o", str(tmp_path / "out"), "--task", "gr\udcfcn"]
+    assert main(words) == 1
+    assert "--task 'gr\\udcfcn': needed is UTF-8" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [bag]
