@@ -27,6 +27,7 @@ from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, con
 
 _REGIONS = "acts_msgs/msg/RegionContacts"
 _BACKWARD = "left out, not newer than one before: was a clock set?"
+_WITHOUT_NUMBERS = "left out, with values that are no numbers"
 
 # Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
 _PAUSE_MAX_S = 60.0
@@ -225,7 +226,6 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             frames = recovered_frames(bag, path, topics.samples, topics.baseline, choice, refused)
             if found.note:
                 frames = (replace(seen, contacts=None) for seen in frames)
-        left_out = {**found.left_out, topics.joints: joints.track.backward}
         yield Recording(
             name=str(path),
             skin=topics.skin,
@@ -234,7 +234,8 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             uses_layout=found.uses_layout,
             hint=_layout_hint(bag, path, topics.skin, choice.layout) if found.uses_layout else "",
             _notes=(
-                *(f"{counted(count, 'message')} of {topic} {_BACKWARD}" for topic, count in left_out.items() if count),
+                *found.left_out,
+                *_left_out(joints.track, topics.joints),
                 *([found.note] if found.note else []),
                 *joints.notes,
                 bag.note or "",
@@ -251,22 +252,22 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
 class _FoundContacts:
     """The total contact and the single ones beside the frames; their tracks are empty where they are not known.
 
-    `left_out` counts messages of a topic that are not newer than one before; `uses_layout`: something is recovered, so
-    that the layout makes a difference; `note` says why contacts are not known.
+    `left_out` says which messages are left out; `uses_layout`: something is recovered, so that the layout makes a
+    difference; `note` says why contacts are not known.
     """
 
     contact: Track[Values]
     contacts: Track[Values]
-    left_out: dict[str, int]
+    left_out: tuple[str, ...]
     uses_layout: bool
     note: str
 
 
 def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, choice: Choice, refused: Refused) -> _FoundContacts:
     """The recorded contacts; beside recorded images, those that lack are found in the samples."""
-    contact = contact_track(bag, path, topics.contact)
-    contacts = contacts_track(bag, path, topics.contacts)
-    left_out = {topics.contact: contact.backward, topics.contacts: contacts.backward}
+    contact = contact_track(bag, path, topics.contact, numbers_only=choice.numbers_only)
+    contacts = contacts_track(bag, path, topics.contacts, numbers_only=choice.numbers_only)
+    left_out = (*_left_out(contact, topics.contact), *_left_out(contacts, topics.contacts))
     are_recorded = bool(contact.stamps_ns and contacts.stamps_ns)
     uses_layout = not topics.images or bool(topics.samples and not are_recorded)
     other_taxels = ""
@@ -287,17 +288,23 @@ def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, choice: Choice, ref
     return _FoundContacts(
         contact if contact.stamps_ns else found[0],
         contacts if contacts.stamps_ns or other_taxels else found[1],
-        {**left_out, topics.samples: found[0].backward},
+        (*left_out, *_left_out(found[0], topics.samples)),
         uses_layout,
         other_taxels,
     )
+
+
+def _left_out(track: Track[Values], topic: str) -> list[str]:
+    """Which messages of a topic are left out, in words."""
+    whys = {_BACKWARD: track.backward, _WITHOUT_NUMBERS: track.without_numbers}
+    return [f"{counted(count, 'message')} of {topic} {why}" for why, count in whys.items() if count]
 
 
 def _other_taxels(contact: Track[Values], topic: str, name: str) -> str:
     """That the recorded contact is of taxels of another size than the layout's, so that what is found is misplaced."""
     sizes_m = {(patch.pitch_m, patch.row_pitch_m) for patch in layout(name).patches}
     areas_m2 = np.array(contact.values).reshape(-1, len(CONTACT_COLUMNS))[:, CONTACT_COLUMNS.index("area_m2")]
-    areas_m2 = areas_m2[areas_m2 > 0]
+    areas_m2 = areas_m2[np.isfinite(areas_m2) & (areas_m2 > 0)]
     if len(sizes_m) != 1 or not areas_m2.size:
         return ""
     ((pitch_m, row_pitch_m),) = sizes_m

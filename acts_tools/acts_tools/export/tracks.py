@@ -51,11 +51,14 @@ class Track(Generic[_T]):
         Value at each stamp.
     backward : int
         Number of messages left out: not newer than one before.
+    without_numbers : int
+        Number of messages left out: with a value that is no number.
     """
 
     stamps_ns: list[int] = field(default_factory=list)
     values: list[_T] = field(default_factory=list)
     backward: int = 0
+    without_numbers: int = 0
 
     def add(self, stamp_ns: int, value: _T) -> None:
         """Append, unless it is not newer than the last."""
@@ -71,14 +74,14 @@ class Track(Generic[_T]):
         return self.stamps_ns[place], self.values[place]
 
 
-def contact_track(bag: Any, path: Path, topic: str) -> Track[Values]:
-    """The recorded contact, with `CONTACT_COLUMNS`."""
-    return _track(bag, path, topic, Contact, contact_of_message)
+def contact_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Track[Values]:
+    """The recorded contact, with `CONTACT_COLUMNS`; `numbers_only`: without messages that hold NaN or infinity."""
+    return _track(bag, path, topic, Contact, contact_of_message, numbers_only)
 
 
-def contacts_track(bag: Any, path: Path, topic: str) -> Track[Values]:
-    """The recorded contacts: arrays [shape=(n, 9)] with `CONTACTS_COLUMNS`."""
-    return _track(bag, path, topic, Contacts, _contacts_of_message)
+def contacts_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Track[Values]:
+    """The recorded contacts: arrays [shape=(n, 9)] with `CONTACTS_COLUMNS`; `numbers_only` as of `contact_track`."""
+    return _track(bag, path, topic, Contacts, _contacts_of_message, numbers_only)
 
 
 @dataclass(frozen=True)
@@ -121,7 +124,8 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
         Of the bag, for errors.
     topic : str
     numbers_only : bool
-        Whether NaN and infinity, by which drivers say that they do not know a value, count as not told.
+        Whether NaN and infinity, by which drivers say that they do not know a value, count as not told, as does what
+        is too large for single precision.
 
     Raises
     ------
@@ -173,7 +177,7 @@ def _numbers_of(told: list[_Told], shared: dict[Names, Names]) -> tuple[list[_To
     numbers: list[_Told] = []
     unknown: Counter[str] = Counter()
     for one in told:
-        is_number = np.isfinite(one.values)
+        is_number = _are_numbers(one.values)
         if is_number.all():
             numbers.append(one)
             continue
@@ -245,9 +249,21 @@ def _told(message: JointState, shared: dict[Names, Names]) -> _Told:
     return _Told(ns_of(message.header.stamp), shared.setdefault(key, key), np.array(values, dtype=np.float64))
 
 
-def _track(bag: Any, path: Path, topic: str, kind: type, read: Callable[[Any], Values]) -> Track[Values]:
+def _are_numbers(values: Values) -> NDArray[np.bool_]:
+    """Whether each value is a number in single precision, too."""
+    are_numbers: NDArray[np.bool_] = np.abs(values) <= np.finfo(np.float32).max
+    return are_numbers
+
+
+def _track(
+    bag: Any, path: Path, topic: str, kind: type, read: Callable[[Any], Values], numbers_only: bool
+) -> Track[Values]:
     track: Track[Values] = Track()
     read_messages: Iterator[Any] = messages(bag, path, topic, kind)
     for message in read_messages:
-        track.add(ns_of(message.header.stamp), read(message))
+        values = read(message)
+        if numbers_only and not _are_numbers(values).all():
+            track.without_numbers += 1
+        else:
+            track.add(ns_of(message.header.stamp), values)
     return track

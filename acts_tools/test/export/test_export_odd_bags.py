@@ -195,6 +195,46 @@ def test_in_a_lerobot_dataset_all_joint_values_are_numbers(
         assert sentence in (out / "notes.txt").read_text()
 
 
+def test_in_a_lerobot_dataset_all_values_of_contacts_and_joints_are_numbers(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], recwarn: pytest.WarningsRecorder
+) -> None:
+    """Messages of contacts without are left out; numbers beyond single precision are none there."""
+    parquet = pytest.importorskip("pyarrow.parquet", reason="./acts run python3 -m pip install pyarrow")
+    several = contacts(10, 1, 2)
+    several.contacts[1].position.x = math.inf
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (0, 10, 20, 30)),
+        *(("/plate/contact", contact(t, force_n)) for t, force_n in ((0, 1.0), (10, math.nan), (20, 3.0))),
+        *(("/plate/contacts", one) for one in (contacts(0, 1), several)),
+        *(("/joint_states", joints(t, knee=angle)) for t, angle in ((0, 0.5), (10, 1e300))),
+    )
+    out = tmp_path / "out"
+    assert main(["export", str(path), "--to", "lerobot", "--rate", "100", "-o", str(out)]) == 0
+    table = parquet.read_table(out / "data/chunk-000/file-000.parquet")
+    assert [one[3] for one in table["observation.contact.plate"].to_pylist()] == [1.0, 1.0, 3.0, 3.0]
+    assert [one[0] for one in table["observation.contacts.plate"].to_pylist()] == [1.0] * 4
+    assert table["observation.state"].to_pylist() == [0.5] * 4
+    json.loads((out / "meta/stats.json").read_text(), parse_constant=pytest.fail)
+    assert [str(one.message) for one in recwarn if one.category is RuntimeWarning] == []
+    told = capsys.readouterr().err
+    for topic in ("/plate/contact", "/plate/contacts"):
+        assert f"1 message of {topic} left out, with values that are no numbers\n" in told
+    assert "1 value of a joint is no number, and the one before it stays: knee.position" in told
+
+
+def test_a_contact_of_endless_area_does_not_tell_the_size_of_the_taxels(
+    tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    endless = contact(10, 1.0)
+    endless.area = math.inf
+    path = write_bag(tmp_path / "b", ("/plate/samples", samples(10, pressed(0))), ("/plate/contact", endless))
+    with open_recording(path, Choice()) as recording:
+        assert [row.contacts is not None and len(row.contacts) for row in recording.rows()] == [1]
+        assert recording.notes() == []
+    assert [str(one.message) for one in recwarn if one.category is RuntimeWarning] == []
+
+
 def test_in_other_formats_joint_values_are_what_was_published(bag_without_all_efforts: Path, tmp_path: Path) -> None:
     out = tmp_path / "out.npz"
     assert main(["export", str(bag_without_all_efforts), "--to", "npz", "-o", str(out)]) == 0
