@@ -95,12 +95,15 @@ def _require_new_files(path: Path) -> None:
         ) from error
 
 
-def require_picture(path: Path | None, *, makes_folder: bool = False) -> None:
+def require_picture(path: Path | None, *, makes_folder: bool = False, report: Path | None = None) -> None:
     """Raise an error, as `require_writable`, also for a name whose end is no kind of picture.
 
-    Matplotlib would add an end to a name without one, and so write beside a folder of that name.
+    Matplotlib would add an end to a name without one, and so write beside a folder of that name. `report` is the file
+    that `write_json` writes, of which the picture would take the place.
     """
     require_writable(path, makes_folder=makes_folder, takes_stream=False)
+    if path is not None and report is not None and path.resolve() == report.resolve():
+        raise RecordingError(f"{path}: is to be both the picture and the JSON file; give one of them another name")
     if path is not None and path.suffix.lower() not in _PICTURES:
         raise RecordingError(f"{path}: no name of a picture; allowed are names that end in {', '.join(_PICTURES)}")
 

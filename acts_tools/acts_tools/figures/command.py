@@ -21,7 +21,7 @@ from acts_tools.figures.figure import Figure
 from acts_tools.figures.files import read_stamped, write_csv, write_images, write_stamped
 from acts_tools.figures.published import VARIABLE, PublishedData, published_data
 from acts_tools.figures.registry import FIGURES, figures_named
-from acts_tools.figures.run import Run
+from acts_tools.figures.run import SHARED, Run
 from acts_tools.figures.sheet import PUBLISHED, Panel, from_json, large_images, rows, to_json
 from acts_tools.output_file import make_folder
 from acts_tools.progress import Progress, tell
@@ -32,6 +32,7 @@ _MISSING = "The paper's curves are not drawn: they are not all in the given fold
 
 
 _OUT, _OUT_FAST = Path("figures"), Path("figures_fast")
+_SUFFIXES = (".json", ".csv", ".npz", ".png")
 
 _EPILOG = """\
 examples:
@@ -85,8 +86,10 @@ def run(arguments: argparse.Namespace) -> int:
     published = published_data(arguments.paper_data)
     out = arguments.out or (_OUT_FAST if arguments.fast else _OUT)
     make_folder(out, "--out")
-    if arguments.json is not None and arguments.json.resolve() in _own_files(out):
-        raise RecordingError(f"--json {arguments.json}: is where a figure keeps its own numbers; give another name")
+    if arguments.json is not None and _is_own_file(arguments.json, out):
+        raise RecordingError(
+            f"--json {arguments.json}: is where a figure keeps its own numbers or picture; give another name"
+        )
     one = Run(out, arguments.seed, arguments.fast, arguments.again)
     results = report.Results(arguments.json, one.settings)
     if published is None and any(figure.has_published for figure in figures):
@@ -102,9 +105,11 @@ def run(arguments: argparse.Namespace) -> int:
     return code
 
 
-def _own_files(out: Path) -> set[Path]:
-    """The JSON files of all figures in a folder."""
-    return {(out / f"{figure.file_name}.json").resolve() for figure in FIGURES.values()}
+def _is_own_file(path: Path, out: Path) -> bool:
+    """Whether figures in a folder may have a file there: numbers, tables, pictures, and what several of them share."""
+    place, folder = path.resolve(), out.resolve()
+    names = {f"{figure.file_name}{suffix}" for figure in FIGURES.values() for suffix in _SUFFIXES}
+    return (place.parent == folder and place.name in names) or place.parent == folder / SHARED
 
 
 def _make(figure: Figure, one: Run, published: PublishedData | None) -> dict[str, Any]:

@@ -16,6 +16,9 @@ from acts_tools.figures.digest import code_digest
 from acts_tools.figures.files import read_stamped, write_stamped
 from acts_tools.progress import Progress
 
+SHARED = "shared"
+"""Folder of what several figures share, in the folder of all files."""
+
 _T = TypeVar("_T")
 
 
@@ -69,7 +72,7 @@ class Run:
             ``measure()``: what can be written as JSON.
         """
         if name not in self._shared:
-            path = self.out / "shared" / f"{name}.json"
+            path = self.out / SHARED / f"{name}.json"
             known = None if self.again else read_stamped(path, self.settings)
             if known is None:
                 # Through JSON, so that a number is the same whether it was measured now or earlier.

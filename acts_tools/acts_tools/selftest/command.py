@@ -104,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.no_touch:
         refuse_unused(arguments, "with --no-touch", "touch_s")
     require_writable(arguments.json, makes_folder=True)
-    require_picture(arguments.picture, makes_folder=True)
+    require_picture(arguments.picture, makes_folder=True, report=arguments.json)
     with ExitStack() as stack:
         skin = _simulated(arguments, stack) if arguments.sim else None
         test = _test(arguments, skin)

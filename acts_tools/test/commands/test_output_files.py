@@ -179,3 +179,17 @@ def test_recordings_are_not_replaced_by_what_is_made_of_them(
     assert main([*words.split(), str(same), "--frames", str(recordings)]) == 1
     assert f"{same}: is read, and would be lost" in capsys.readouterr().err
     assert recordings.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["selftest --sim", "evaluate objects", "evaluate classification", "evaluate slip --frames /no.npz"],
+)
+def test_picture_and_json_file_are_two_files(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "results.png"
+    assert main([*words.split(), "--picture", str(path), "--json", path.name]) == 1
+    assert f"error: {path}: is to be both the picture and the JSON file; give one" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

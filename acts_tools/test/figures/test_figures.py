@@ -186,16 +186,18 @@ def test_a_folder_of_nobody_is_refused(
     assert capsys.readouterr().err.startswith("error: ~no_such_person/data: Could not determine home directory")
 
 
+@pytest.mark.parametrize("name", ["fig_4e.json", "fig_4e.csv", "fig_4e.png", "shared/support.json"])
 def test_the_json_file_of_all_figures_is_not_that_of_one(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = folder / "fig_4e.json"
+    path = folder / name
     words = ["figures", "4E", "--fast", "--out", str(folder)]
     assert main(words) == 0
     before = path.read_bytes()
     monkeypatch.chdir(folder)
-    assert main([*words, "--json", path.name]) == 1
-    assert "--json fig_4e.json: is where a figure keeps its own numbers; give another name" in capsys.readouterr().err
+    assert main([*words, "--json", name]) == 1
+    told = f"--json {name}: is where a figure keeps its own numbers or picture; give another name"
+    assert told in capsys.readouterr().err
     assert path.read_bytes() == before
     assert main(words) == 0
 

@@ -69,7 +69,7 @@ def add_parser(commands: Any) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     require_writable(arguments.json, reads=[arguments.frames] if arguments.frames else [])
-    require_picture(arguments.picture)
+    require_picture(arguments.picture, report=arguments.json)
     # What is named twice is one: its presses would count twice.
     ms = list(dict.fromkeys(arguments.m or ([55] if arguments.frames else MS)))
     write = partial(write_json, arguments.json)

@@ -69,7 +69,7 @@ def _run(arguments: argparse.Namespace) -> int:
     options.require_frames((scheme, m) for m in arguments.m for _, scheme in pairs)
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
     results = options.results(arguments, objects=arguments.objects, presses=arguments.presses)
-    require_picture(arguments.picture)
+    require_picture(arguments.picture, report=arguments.json)
     dictionary = options.dictionary(arguments)
     items = [object_named(name) for name in arguments.objects]
     recordings = press_recordings(items, arguments.presses, arguments.seed)
