@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
+from acts_core.files import write_whole
 from acts_recon.outlines.outline import Outline, way_around
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ def surface_of(outlines: Sequence[Outline], speed_m_s: float = 5.0) -> Surface:
 
 
 def write_ply(surface: Surface, path: Path) -> None:
-    """Write a surface as PLY (Stanford polygon file), in text.
+    """Write a surface as PLY (Stanford polygon file), in text, as a whole or not at all.
 
     Raises
     ------
@@ -84,10 +85,8 @@ def write_ply(surface: Surface, path: Path) -> None:
     )
     points = "".join(f"{x:.6f} {y:.6f} {z:.6f}\n" for x, y, z in surface.points_m.tolist())
     faces = "".join(f"3 {a} {b} {c}\n" for a, b, c in surface.triangles.tolist())
-    try:
-        path.write_text(head + points + faces)
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be written ({error.strerror}); its folder must exist") from error
+    with write_whole(path, error=RecordingError, hint="its folder must exist") as file:
+        file.write(f"{head}{points}{faces}".encode())
 
 
 def _ring(outline: Outline, z_m: float) -> Array:

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +23,7 @@ from acts_recon.outlines import (
     Outline,
     OutlinesConfig,
     OutlineTracer,
+    Surface,
     area,
     contours,
     mean_distance_m,
@@ -339,3 +342,18 @@ def test_outlines_over_time_are_a_closed_surface_in_a_file(tmp_path: Path) -> No
         surface_of(outlines[:1])
     with pytest.raises(RecordingError, match="cannot be written"):
         write_ply(surface, tmp_path / "no" / "touch.ply")
+
+
+def test_a_surface_is_written_as_a_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fill_the_disk(_number: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    corners = np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]])
+    path = tmp_path / "touch.ply"
+    write_ply(Surface(corners, np.array([[0, 1, 2]])), path)
+    before = path.read_text()
+    monkeypatch.setattr(os, "fsync", fill_the_disk)
+    with pytest.raises(RecordingError, match=r"touch\.ply: cannot be written \(No space left on device\)"):
+        write_ply(Surface(2.0 * corners, np.array([[0, 1, 2]])), path)
+    assert path.read_text() == before
+    assert list(tmp_path.iterdir()) == [path]
