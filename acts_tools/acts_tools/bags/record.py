@@ -57,7 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Run ``acts record``; return 0 when messages of every requested topic have been recorded."""
     if bool(arguments.topics) == arguments.all:
         raise RecordingError("say which topics to record: either their names, or -a for all")
-    topics = None if arguments.all else [full_name(name) for name in arguments.topics]
+    # One that is named twice would be told of twice.
+    topics = None if arguments.all else list(dict.fromkeys(map(full_name, arguments.topics)))
     path = arguments.output or Path(f"rosbag2_{datetime.now():%Y_%m_%d-%H_%M_%S}")
     return record(path, topics, arguments.duration)
 

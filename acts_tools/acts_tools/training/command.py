@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.files import without_contact
+from acts_core.names import full_name
 from acts_core.settings import part_of
 from acts_core.words import counted
 from acts_recon.learning import KsvdConfig, KsvdProgress, learn_dictionary
@@ -151,7 +152,7 @@ def _learn(
 def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
     """The frames, and the settings of their source."""
     if arguments.frames is not None:
-        recorded = recorded_frames(arguments.frames, arguments.topic)
+        recorded = recorded_frames(arguments.frames, full_name(arguments.topic) if arguments.topic else "")
         largest = int(recorded.frames.max(initial=0))
         if largest <= arguments.touch_counts:
             files = ", ".join(map(str, arguments.frames))

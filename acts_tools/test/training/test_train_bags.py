@@ -110,6 +110,19 @@ def test_a_dictionary_from_a_bag_and_an_npz_file(frames: Frames, tmp_path: Path)
     assert "60 frames of f.npz (sha256 " in provenance
 
 
+def test_a_topic_is_named_as_in_other_commands(frames: Frames, tmp_path: Path) -> None:
+    """Without its first slash, too."""
+    bag = write_bag(
+        tmp_path / "b", *((topic, raster(frame)) for frame in frames for topic in ("/a/samples", "/b/samples"))
+    )
+    words = ["train", "-o", str(tmp_path / "d.npz"), "--frames", str(bag), "--topic", "b/samples"]
+    words += ["--patch-size", "6", "--patches", "400", "--atoms", "50", "--sparsity", "4", "--iterations", "1"]
+    parser = Parser()
+    command.add_parser(parser.add_subparsers())
+    assert command.run(parser.parse_args(words)) == 0
+    assert "frames of /b/samples in b" in load_dictionary(tmp_path / "d.npz", patch_size=6).provenance
+
+
 def test_of_several_topics_one_is_chosen(frames: Frames, tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "bag", ("/a/samples", raster(frames[0])), ("/a/image_raw", image(frames[1])))
     with pytest.raises(RecordingError, match=r"/a/image_raw, /a/samples: choose one with --topic"):
