@@ -148,6 +148,11 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
     if unfit:
         words = counted(unfit, "joint state has", "joint states have")
         notes.append(f"{topic}: {words} not as many numbers as names; such numbers are left out")
+    repeated = {names for names in {one.names for one in told} if len(set(names)) < len(names)}
+    if repeated:
+        count = sum(one.names in repeated for one in told)
+        words = counted(count, "joint state names", "joint states name")
+        notes.append(f"{topic}: {words} a joint twice; what is said of it last is exported")
     if numbers_only:
         told, more = _numbers_of(told, shared)
         notes += more

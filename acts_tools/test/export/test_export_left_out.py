@@ -38,6 +38,20 @@ def test_frames_that_do_not_fit_are_left_out_and_told(tmp_path: Path) -> None:
     assert "2000" in note
 
 
+def test_joint_states_that_name_a_joint_twice_are_told(tmp_path: Path) -> None:
+    twice = JointState(header=header(5), name=["knee", "hip", "knee"], position=[0.5, 1.0, 2.0])
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20)),
+        ("/joint_states", twice),
+        ("/joint_states", joints(15, knee=3.0)),
+    )
+    with open_recording(path, Choice()) as recording:
+        assert [row.joints is not None and row.joints.tolist() for row in recording.rows()] == [[2.0, 1.0], [3.0, 1.0]]
+        (note,) = recording.notes()
+    assert note == "/joint_states: 1 joint state names a joint twice; what is said of it last is exported"
+
+
 def test_joint_states_that_do_not_fit_their_names_are_told(tmp_path: Path) -> None:
     unfit = JointState(header=header(5), name=["knee", "hip"], position=[0.5])
     half = JointState(header=header(6), name=["knee"], position=[0.5], effort=[1.0, 2.0])
