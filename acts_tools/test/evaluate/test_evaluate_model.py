@@ -13,6 +13,12 @@ from acts_tools.cli import main
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.parametrize("words", ["events --event tap_4x4 --recordings 1", "objects --objects circle --m 42"])
+def test_touches_of_which_nothing_can_be_scored_are_an_error(words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["evaluate", *words.split(), "--touch-counts", "1023"]) == 1
+    assert f"error: {words.split()[2]}: nothing was scored, since no frame ends in a contact" in capsys.readouterr().err
+
+
 def test_events_are_scored_by_kind(tmp_path: Path) -> None:
     out = tmp_path / "events.json"
     words = ["--event", "tap_4x4", "two_taps", "--recordings", "8", "--method", "last", "zero", "--json", str(out)]

@@ -15,7 +15,7 @@ from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
-from acts_tools.evaluate.images.tasks import HEADER, evaluate_shown, line, require_methods
+from acts_tools.evaluate.images.tasks import HEADER, evaluate_shown, line, require_methods, require_scored
 
 
 def add_parser(commands: Any) -> None:
@@ -43,4 +43,5 @@ def _run(arguments: argparse.Namespace) -> int:
             scored = evaluate_shown(recordings, task, dictionary, f"{name}: ")
             further = report.number(scored["notice_further_ms"]["p99"], 11, 1)
             results.add({"event": name, **scored}, f"{name:13} {line(scored)} {further}")
+    require_scored(results.entries, ", ".join(arguments.event), tasks[0].touch_counts)
     return 0

@@ -25,7 +25,7 @@ from acts_tools.arguments import at_least_one
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
-from acts_tools.evaluate.images.tasks import evaluate_all
+from acts_tools.evaluate.images.tasks import evaluate_all, require_scored
 from acts_tools.evaluate.options import add_m
 from acts_tools.evaluate.picture import diagrams
 from acts_tools.output_file import require_picture
@@ -74,6 +74,7 @@ def _run(arguments: argparse.Namespace) -> int:
     items = [object_named(name) for name in arguments.objects]
     recordings = press_recordings(items, arguments.presses, arguments.seed)
     evaluate_all(recordings, tasks, dictionary, results)
+    require_scored(results.entries, ", ".join(arguments.objects), tasks[0].touch_counts)
     curves = {
         f"{method}, {scheme}": [
             r["support_accuracy"] for r in results.entries if (r["method"], r["scheme"]) == (method, scheme)

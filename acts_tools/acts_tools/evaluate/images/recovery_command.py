@@ -20,7 +20,7 @@ from acts_sim.pressing import OBJECTS
 from acts_tools.arguments import at_least_one, refuse_unused
 from acts_tools.evaluate.images import options
 from acts_tools.evaluate.images.recovery import Recording
-from acts_tools.evaluate.images.tasks import evaluate_all
+from acts_tools.evaluate.images.tasks import evaluate_all, require_scored
 from acts_tools.large_files import tell_if_large
 from acts_tools.training.frames import model_frames
 
@@ -62,11 +62,7 @@ def _run(arguments: argparse.Namespace) -> int:
     source = arguments.frames.name if arguments.frames else f"{arguments.presses} presses"
     results = options.results(arguments, frames_file=source, peaks=arguments.peaks, every=arguments.every)
     evaluate_all(recordings, tasks, dictionary, results)
-    if not any(entry["frames"] or entry["onset"]["frames"] for entry in results.entries):
-        raise RecordingError(
-            f"{source}: nothing was scored, since no frame ends in a contact; needed are recordings with taxels above "
-            f"--touch-counts {tasks[0].touch_counts}"
-        )
+    require_scored(results.entries, source, tasks[0].touch_counts)
     return 0
 
 

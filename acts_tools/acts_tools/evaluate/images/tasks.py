@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from acts_core.errors import RecordingError
 from acts_recon.sparse import Dictionary
 from acts_tools.evaluate import report
 from acts_tools.evaluate.images.recovery import Recording, Task, evaluate, images, method_of
@@ -67,3 +68,18 @@ def evaluate_all(
     for task in tasks:
         scored = evaluate_shown(recordings, task, dictionary)
         results.add(scored, line(scored))
+
+
+def require_scored(entries: Sequence[dict[str, Any]], source: str, touch_counts: float) -> None:
+    """Check that some of the entries, of recordings with taxels above `touch_counts`, have a frame that is scored.
+
+    Raises
+    ------
+    RecordingError
+        None has.
+    """
+    if not any(entry["frames"] or entry["onset"]["frames"] for entry in entries):
+        raise RecordingError(
+            f"{source}: nothing was scored, since no frame ends in a contact; needed are recordings with taxels above "
+            f"--touch-counts {touch_counts}"
+        )
