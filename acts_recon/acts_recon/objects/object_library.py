@@ -47,7 +47,7 @@ class ObjectLibrary:
     classes : np.ndarray [shape=(n_columns,), dtype=int64]
         Class number of every column: 0 to ``n_classes - 1``, each at least once.
     names : tuple of str
-        Name of every class, none empty, none twice.
+        Name of every class in UTF-8, none empty, none twice.
     provenance : str
         From what it was made, for a person.
 
@@ -107,6 +107,14 @@ class ObjectLibrary:
             raise ObjectLibraryError(f"{len(names)} names; allowed are 1 to {CLASSES_MAX} classes")
         if not all(names) or len(set(names)) < len(names):
             raise ObjectLibraryError(f"names {', '.join(map(repr, names))}: give every class a name of its own")
+        for name in names:
+            try:
+                name.encode()
+            except UnicodeEncodeError as error:
+                # As of a file that is named in another encoding.
+                raise ObjectLibraryError(
+                    f"name {name!r}: needed is text in UTF-8, as messages have it; name it anew"
+                ) from error
 
     def _checked_classes(self, n_columns: int, n_classes: int) -> NDArray[np.int64]:
         classes = np.asarray(self.classes)

@@ -61,6 +61,7 @@ def test_columns_are_frames_of_norm_1_above_the_touch_threshold(library: ObjectL
         (frames() * 2, LABELS, "outside of 0 to 1023"),
         (np.full((3, 2, 2), np.nan), LABELS, "outside of 0 to 1023"),
         (frames(), ["", "ball", "cup"], "a name of its own"),
+        (frames(), ["ball", "ball", "c\udcfcp"], r"name 'c.udcfcp': needed is text in UTF-8"),
     ],
 )
 def test_frames_that_make_no_library_are_refused(content: np.ndarray, labels: list[str], word: str) -> None:
