@@ -8,6 +8,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -45,7 +46,7 @@ def test_the_help_of_each_command_has_examples_that_it_takes(name: str, capsys: 
     examples = re.findall(r"^  acts (.+?)(?:  .*)?$", after, re.MULTILINE)
     assert examples
     for example in examples:
-        words = example.partition(" | ")[0].split()
+        words = shlex.split(example.partition(" | ")[0])
         assert words[0] == name
         if name == "launch":  # as `main` does
             words.sort(key=lambda word: word.startswith("-"))
