@@ -102,7 +102,11 @@ if os.environ.get("ACTS_LONG_FAULTS"):
     ]
 
 
-@pytest.mark.parametrize("cases", [CASES[first : first + 4] for first in range(0, len(CASES), 4)])
+# The first alone: it takes a robot for lost the soonest, also while the programs of the others start beside it.
+GROUPS = [CASES[:1], *(CASES[first : first + 4] for first in range(1, len(CASES), 4))]
+
+
+@pytest.mark.parametrize("cases", GROUPS)
 def test_after_a_stall_only_what_is_asked_for_is_commanded(cases: list[tuple[float, Callable[[Rig], None]]]) -> None:
     def scenario(number: int, stall_s: float, meanwhile: Callable[[Rig], None]) -> None:
         with ExitStack() as stack:
