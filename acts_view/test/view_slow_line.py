@@ -69,8 +69,8 @@ class SlowLine:
     def read_slowly(self, bytes_min: int, meanwhile: Callable[[], object] = lambda: None) -> bool:
         """Read so much, `SLOW_BYTES_S` at most, and do something after each piece; False as by `read`."""
         while self.got < bytes_min:
-            # A busy machine makes up for a pause: the line is slow, it does not stand still.
-            while self.got < SLOW_BYTES_S * self.passed_s:
+            # A busy machine makes up for a pause: the line is slow, it does not stand still. Nothing may come after it.
+            while self.got < min(bytes_min, SLOW_BYTES_S * self.passed_s):
                 if not self.read():
                     return False
                 meanwhile()
