@@ -30,11 +30,11 @@ _DELIVERY_S = 1.0
 _EPILOG = """\
 examples:
   acts pub -r 20 /hand/command sensor_msgs/msg/JointState '{name: [index_pip], position: [0.4]}'
-  acts pub -n 1 /plate/ball/reference acts_msgs/msg/BallReference '{header: auto, position: {x: 0.02}}'
+  acts pub -n 1 /plate/mark geometry_msgs/msg/PointStamped '{header: auto, point: {x: 0.02}}'
 
 VALUES are YAML: fields by name, those of a message within it in braces. In place of a stamp stands `now`, in place of a
 header `auto`: each message is stamped when it is published.
-The words are those of `ros2 topic pub`.
+TOPIC, TYPE, VALUES and -r are as of `ros2 topic pub`.
 """
 
 
