@@ -56,7 +56,25 @@ def robot_of(demo: int) -> psutil.Process | None:
 
 @pytest.mark.usefixtures("ur_rtde")
 def test_a_robot_that_is_stopped_while_all_is_started_is_started_again(tmp_path: Path) -> None:
-    options = ["--seconds", "8", "--out", str(tmp_path), "--robot-ip", "127.0.6.14"]
+    for attempt in range(5):
+        out = tmp_path / str(attempt)
+        ended = demo_whose_robot_stands_still(out)
+        if ended is not None:
+            break
+    assert ended is not None, "a command was late in each attempt"
+    code, said = ended
+    assert "stopped before the ball was balanced: no data from the robot for 0.2" in said
+    assert "balancing: balancing" in (out / "ball_balancing.log").read_text(), said
+    results = json.loads((out / "ball_balancing.json").read_text())
+    assert code == (0 if results["ok"] else 1), said
+
+
+def demo_whose_robot_stands_still(out: Path) -> tuple[int, str] | None:
+    """Exit code and words of a demo; None where a command was late before the robot stood still, on a busy machine.
+
+    Then it is this that is told, not that no data come.
+    """
+    options = ["--seconds", "8", "--out", str(out), "--robot-ip", "127.0.6.14"]
     with subprocess.Popen(
         [sys.executable, "-m", "acts_tools", "demo", "ball_balancing", *options],
         env={**os.environ, "ROS_DOMAIN_ID": "3"},
@@ -64,7 +82,7 @@ def test_a_robot_that_is_stopped_while_all_is_started_is_started_again(tmp_path:
         stderr=subprocess.STDOUT,
         text=True,
     ) as process:
-        log = tmp_path / "ball_balancing.log"
+        log = out / "ball_balancing.log"
 
         def told(words: str) -> bool:
             return log.exists() and words in log.read_text()
@@ -73,13 +91,11 @@ def test_a_robot_that_is_stopped_while_all_is_started_is_started_again(tmp_path:
         robot = robot_of(process.pid)
         assert robot is not None
         robot.suspend()
-        wait_for(lambda: told("stopped: no data from the robot"), timeout_s=60.0)
+        late = "stopped: the robot has not taken a command for 0.2"
+        wait_for(lambda: told("stopped: no data from the robot") or told(late), timeout_s=60.0)
         robot.resume()
         said, _ = process.communicate(timeout=240)
-    assert "stopped before the ball was balanced: no data from the robot for 0.2" in said
-    assert told("balancing: balancing"), said
-    results = json.loads((tmp_path / "ball_balancing.json").read_text())
-    assert process.returncode == (0 if results["ok"] else 1), said
+    return None if told(late) else (process.returncode, said)
 
 
 def test_an_impossible_length_is_refused(tmp_path: Path) -> None:
