@@ -184,7 +184,8 @@ def _press_patch(
 
     `here` is np.ndarray [shape=(blocks, solids), dtype=int64]: which of `near` may touch each block.
     """
-    # Fields are read once: at every point that would take longer than the arithmetic.
+    # Fields are read once: at every point that would take longer than the arithmetic. The search for the deepest solid
+    # stays here for the same reason: as a function, which needs a dozen of these fields, it took a third longer.
     first, end, close, touched = blocks["first"], blocks["end"], blocks["close"], blocks["touched"]
     point, normal, area = points["pos"], points["normal"], points["area"]
     bristle, taxel, share = points["bristle"], points["taxel"], points["share"]
@@ -242,15 +243,10 @@ def _press_patch(
             if depth > dense_depth:
                 depth += (dense_factor - 1.0) * (depth - dense_depth)
             force = stiffness * area[i] * depth * min(max(1.0 + damping * deeper, 0.0), 2.0)
-            # Deflection of the bristle in the plane of the contact.
-            ux, uy, uz = bristle[i, 0] + vx * dt, bristle[i, 1] + vy * dt, bristle[i, 2] + vz * dt
-            along = ux * nx + uy * ny + uz * nz
             stiff, most = shear * area[i], friction * force
-            ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
-            drawn = stiff * math.sqrt(ux * ux + uy * uy + uz * uz)
-            if drawn > most:
-                scale = most / drawn
-                ux, uy, uz = ux * scale, uy * scale, uz * scale
+            ux, uy, uz = bristle[i, 0] + vx * dt, bristle[i, 1] + vy * dt, bristle[i, 2] + vz * dt
+            ux, uy, uz, slides = _deflected(stiff, most, ux, uy, uz, nx, ny, nz)
+            if slides:
                 sliding += force
                 slid += force * math.sqrt(vx * vx + vy * vy + vz * vz)
             bristle[i, 0], bristle[i, 1], bristle[i, 2] = ux, uy, uz
@@ -270,6 +266,23 @@ def _press_patch(
     if total > 0.0:
         result[FORCE], result[SLIDING_FORCE], result[TIP_FORCE] = total, sliding, tips
         result[SLIDING_SPEED] = slid / max(total, 1e-12)
+
+
+@kernel(error_model="numpy")
+def _deflected(
+    stiff: float, most: float, ux: float, uy: float, uz: float, nx: float, ny: float, nz: float
+) -> tuple[float, float, float, bool]:
+    """Deflection of a bristle of a stiffness [N/m] in the plane with unit normal n, and whether it slides.
+
+    Where u [m] would draw with more than `most` [N], the bristle slides until it draws with that.
+    """
+    along = ux * nx + uy * ny + uz * nz
+    ux, uy, uz = ux - along * nx, uy - along * ny, uz - along * nz
+    drawn = stiff * math.sqrt(ux * ux + uy * uy + uz * uz)
+    if drawn > most:
+        scale = most / drawn
+        return ux * scale, uy * scale, uz * scale, True
+    return ux, uy, uz, False
 
 
 @kernel(error_model="numpy")
