@@ -76,9 +76,11 @@ class DelimitedDecoder(ABC):
     def feed(self, data: bytes) -> list[SampleFrame]:
         """Decode the next bytes of the stream, split anywhere; return the frames that they complete, in order.
 
-        Never raises for what the bytes hold: packets that are not valid are counted and dropped.
+        Never raises for what the bytes hold: packets that are not valid are counted and dropped. A bytearray or another
+        buffer of bytes will do.
         """
-        parts = data.split(self._delimiter)
+        # Of a bytearray, as `readinto` fills it, the parts would be such, too, and kernels compiled anew for them.
+        parts = (data if type(data) is bytes else bytes(memoryview(data))).split(self._delimiter)
         tail = parts.pop()
         frames: list[SampleFrame] = []
         for part in parts:

@@ -6,7 +6,7 @@
 import re
 import struct
 import zlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 from typing import Any
 
@@ -19,6 +19,7 @@ from sample_frames import frames
 from acts_core.errors import PacketError
 from acts_core.frames import SampleFrame, Scheme
 from acts_core.wire import StreamDecoder, cobs, encode_frame
+from acts_core.wire.cobs_kernels import decode_into
 from acts_core.wire.sample_kernels import first_fault
 from acts_core.wire.samples import PACKET_SIZE_MAX, sample_fault
 
@@ -139,6 +140,16 @@ def test_any_split_into_chunks_gives_the_same_frames(sent: list[SampleFrame], cu
     assert all_same(received, sent)
     assert rejected(decoder) == 1
     assert decoder.bytes_discarded == len("garbage")
+
+
+@pytest.mark.parametrize("kind", [bytearray, memoryview, lambda stream: np.frombuffer(stream, dtype=np.uint8)])
+def test_bytes_of_another_kind_are_decoded_and_no_kernel_is_compiled_for_them(kind: Callable[[bytes], Any]) -> None:
+    decoder, stream = StreamDecoder(), b"garbage" + b"".join(encode_frame(example()) for _ in range(3))
+    compiled = len(decode_into.signatures)  # type: ignore[attr-defined]
+    received = [frame for part in (stream[:70], stream[70:]) for frame in decoder.feed(kind(part))]
+    assert all_same(received, StreamDecoder().feed(stream))
+    assert len(received) == 2
+    assert len(decode_into.signatures) == compiled  # type: ignore[attr-defined]
 
 
 @given(frames(80))
