@@ -31,7 +31,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar, cast, overload
 
+import numpy as np
+from numpy.typing import NDArray
+
 R = TypeVar("R")
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+(acts_[\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)|import[ \t]+(acts_[\w.]+))", re.MULTILINE
@@ -84,6 +88,24 @@ def kernel(
     if function is None:
         return lambda decorated: _compiled(decorated, options)
     return _compiled(function, options)
+
+
+def as_compiled(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    """An array as kernels were compiled for at the start: C-contiguous, and one that can be written.
+
+    For a slice, another order in memory, or an array that is read-only, numba would compile a kernel once more, which
+    takes up to a minute. It takes the bytes of another byte order as they are: types are for the caller to check.
+
+    Parameters
+    ----------
+    array : np.ndarray
+
+    Returns
+    -------
+    np.ndarray
+        The same where it is of this kind, else a copy.
+    """
+    return array if array.flags.carray else np.array(array, order="C")
 
 
 def skip_extras() -> None:

@@ -11,7 +11,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+
+from acts_core.kernels import as_compiled
 
 pytestmark = pytest.mark.slow
 
@@ -222,3 +225,15 @@ def test_where_numba_is_told_to_compile_nothing_a_kernel_is_its_function(package
     assert done.stderr == ""
     assert done.stdout == "2 function\n"
     assert folders(package) == []
+
+
+def test_an_array_is_copied_only_where_a_kernel_would_be_compiled_anew() -> None:
+    plain = np.arange(12.0).reshape(3, 4)
+    assert as_compiled(plain) is plain
+    fixed = plain.copy()
+    fixed.flags.writeable = False
+    for other in (plain[:, ::2], plain[::-1], plain.T, np.asfortranarray(plain), fixed):
+        made = as_compiled(other)
+        np.testing.assert_array_equal(made, other)
+        assert made.flags.c_contiguous
+        assert made.flags.writeable

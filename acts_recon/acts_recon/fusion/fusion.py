@@ -224,6 +224,7 @@ class FusionEstimator:
         """
         require_times(end_s, duration_s)
         places, counts = self._samples.of(indices, counts)
+        end_s, duration_s = float(end_s), float(duration_s)
         period_s = duration_s
         if self._end_s is not None:
             period_s = end_s - self._end_s

@@ -9,7 +9,7 @@ In come frames and layouts; out come tables, checked samples, and images as byte
 from acts_recon.images.baseline import BaselineSubtraction
 from acts_recon.images.borders import Borders, borders_of
 from acts_recon.images.dead_taxels import NO_DEAD, DeadTable, DeadTaxels, DeadTaxelsConfig, fill_dead
-from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_recovered, require_times
+from acts_recon.images.frame_check import LONGEST_PAUSE_S, require_image, require_recovered, require_times
 from acts_recon.images.image import mono16, rgb8
 from acts_recon.images.placed_samples import PlacedSamples
 from acts_recon.images.uncertainty import (
@@ -39,6 +39,7 @@ __all__ = [
     "fill_dead",
     "force_of",
     "mono16",
+    "require_image",
     "require_recovered",
     "require_times",
     "rgb8",

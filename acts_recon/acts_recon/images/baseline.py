@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX, check_untouched
-from acts_core.kernels import kernel
+from acts_core.kernels import as_compiled, kernel
+from acts_recon.images.frame_check import require_rows
 
 
 @kernel
@@ -78,11 +79,17 @@ class BaselineSubtraction:
         ----------
         indices, counts : np.ndarray [shape=(m,), dtype=uint16]
             Samples of one frame. Samples that do not fit the array come back as they are.
+
+        Raises
+        ------
+        ArrayError
+            When these are not two rows of uint16.
         """
+        require_rows(indices, counts)
         m = counts.shape[0]
         if not self.is_set:
             return counts
         # A frame with more samples than there are taxels has some several times.
         result = self._result[:m] if m <= self._result.size else np.empty(m, dtype=np.uint16)
-        _subtract(indices, counts, self._baseline, result)
+        _subtract(as_compiled(indices), as_compiled(counts), self._baseline, result)
         return result

@@ -29,7 +29,7 @@ from acts_core.kernels import kernel
 from acts_core.settings import setting, validate
 from acts_core.skin import TAXELS_RULE, Layout, dead_taxels_named
 from acts_recon.images.borders import borders_of
-from acts_recon.images.frame_check import require_samples
+from acts_recon.images.frame_check import require_image, require_samples
 
 LENGTH_TAXELS = 1.3
 """At this distance pressures are correlated by exp(-1/2)."""
@@ -130,9 +130,20 @@ class DeadTaxels:
         Which taxels of the picture are dead.
     table : DeadTable
         Of the picture.
+
+    Raises
+    ------
+    ArrayError
+        When `dead` is no array of bool, or of another matrix.
     """
 
     def __init__(self, dead: NDArray[np.bool_], geometry: ArrayGeometry, layout: Layout | None = None) -> None:
+        matrix = (geometry.rows, geometry.cols) if layout is None else (layout.matrix_rows, layout.matrix_cols)
+        # Lists come from callers without types.
+        if not isinstance(dead, np.ndarray):
+            raise ArrayError(f"dead is {type(dead).__name__}: needed is an array of numpy of shape {matrix}, bool")
+        if dead.shape != matrix or dead.dtype != np.bool_:
+            raise ArrayError(f"dead of shape {dead.shape}, {dead.dtype}: needed is {matrix}, bool")
         # An index outside of the matrix stays, for whoever takes the frame to refuse.
         self._is_live = np.ones(2**16, dtype=np.bool_)
         self._is_live[: dead.size] = ~dead.ravel()
@@ -162,6 +173,12 @@ class DeadTaxels:
         # Compile, or load from the cache, what the first frame would otherwise wait for.
         blank = np.zeros((geometry.rows, geometry.cols), dtype=np.float32)
         self.fill(blank, blank)
+
+    def require_shape(self, rows: int, cols: int) -> None:
+        """Raise `ArrayError` unless they are of a picture of this size."""
+        if self.in_picture.shape != (rows, cols):
+            given_rows, given_cols = self.in_picture.shape
+            raise ArrayError(f"dead taxels of {given_rows} x {given_cols}: the image is {rows} x {cols}")
 
     def left_out(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16]
@@ -200,10 +217,19 @@ class DeadTaxels:
         Parameters
         ----------
         image : np.ndarray [shape=(rows, cols), dtype=float32]
-            Counts; written, in whole counts as readings are.
+            Counts; written, in whole counts as readings are. C-contiguous, as is `sigma`.
         sigma : np.ndarray [shape=(rows, cols), dtype=float32] or None
             Standard deviation of it, as the method has it [counts]; written.
+
+        Raises
+        ------
+        ArrayError
+            When one of them is of another kind or size, or cannot be written.
         """
+        for name, array in {"image": image, **({} if sigma is None else {"sigma": sigma})}.items():
+            require_image(name, array, self.in_picture.shape, must_be_contiguous=True)
+            if not array.flags.carray:
+                raise ArrayError(f"{name} is read-only: estimates are written into it; give a copy")
         fill_dead(image.ravel(), _UNKNOWN if sigma is None else sigma.ravel(), self.table)
 
 

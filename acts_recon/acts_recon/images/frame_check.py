@@ -20,16 +20,44 @@ LONGEST_PAUSE_S = 0.5
 """After a gap this long between frames nothing of the earlier ones counts on, unless a setting says otherwise."""
 
 
-def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
-    """Raise `ArrayError` unless these are two rows of uint16, shape (m,), as long as one another and not empty."""
+def require_rows(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
+    """Raise `ArrayError` unless these are two rows of uint16, each of any length."""
     # Lists come from callers without types.
     if not (isinstance(indices, np.ndarray) and isinstance(counts, np.ndarray)):
         kinds = f"indices {type(indices).__name__} and counts {type(counts).__name__}"
         raise ArrayError(f"{kinds}: needed are two arrays of numpy, rows of uint16")
     if indices.dtype != np.uint16 or counts.dtype != np.uint16 or indices.ndim != 1 or counts.ndim != 1:
         raise ArrayError(f"indices {_kind(indices)} and counts {_kind(counts)}: needed are two rows of uint16")
+
+
+def require_samples(indices: NDArray[np.uint16], counts: NDArray[np.uint16]) -> None:
+    """Raise `ArrayError` unless these are two rows of uint16, shape (m,), as long as one another and not empty."""
+    require_rows(indices, counts)
     if indices.size != counts.size or indices.size == 0:
         raise ArrayError(f"{indices.size} indices and {counts.size} counts: needed are as many, at least one")
+
+
+def require_image(
+    name: str, image: NDArray[np.float32], shape: tuple[int, ...], *, must_be_contiguous: bool = False
+) -> None:
+    """Raise `ArrayError` unless this is an array of numpy, of this shape and float32.
+
+    Parameters
+    ----------
+    name : str
+        What it is, for the message.
+    image : np.ndarray [shape=shape, dtype=float32]
+    shape : tuple of int
+    must_be_contiguous : bool
+        Whether an array is refused that is not C-contiguous.
+    """
+    # Lists come from callers without types.
+    if not isinstance(image, np.ndarray):
+        raise ArrayError(f"{name} {type(image).__name__}: needed is an array of numpy of shape {shape}, float32")
+    if image.shape != shape or image.dtype != np.float32:
+        raise ArrayError(f"{name} {_kind(image)}: needed is {shape}, float32")
+    if must_be_contiguous and not image.flags.c_contiguous:
+        raise ArrayError(f"{name} {_kind(image)}: needed is a C-contiguous one; take np.ascontiguousarray of it")
 
 
 def require_times(end_s: float, duration_s: float) -> None:
@@ -52,6 +80,8 @@ def require_recovered(
     for name, given in images.items():
         if given is None:
             continue
+        if not isinstance(given, np.ndarray):
+            raise ArrayError(f"{name} {type(given).__name__}: needed is an array of numpy of shape {shape}")
         if given.shape != shape:
             raise ArrayError(f"{name} {given.shape}: needed is {shape}")
         # Written so that NaN is refused, too.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.skin import Layout
 from acts_recon.images.frame_check import place_table, require_samples, skin_table, why_refused
 from acts_recon.images.frame_check_kernels import OK, check_frame
@@ -44,7 +45,7 @@ class PlacedSamples:
     def of(
         self, indices: NDArray[np.uint16], counts: NDArray[np.uint16], *, may_repeat: bool = False
     ) -> tuple[NDArray[np.uint16], NDArray[np.uint16]]:
-        """Places in the picture, and counts there; 0 where there is no skin.
+        """Places in the picture, and counts there, both as kernels take them; 0 where there is no skin.
 
         Parameters
         ----------
@@ -59,6 +60,7 @@ class PlacedSamples:
             When the frame does not fit the array or holds impossible values.
         """
         require_samples(indices, counts)
+        indices, counts = as_compiled(indices), as_compiled(counts)
         places = indices if self._places is None else self._places[indices]
         code = check_frame(places, counts, self._seen, may_repeat)
         if code != OK:

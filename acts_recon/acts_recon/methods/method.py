@@ -71,7 +71,8 @@ class Method(ABC):
     Attributes
     ----------
     image : np.ndarray [shape=(rows, cols), dtype=float32]
-        Of the last frame [counts, 0 to 1023]; the same array all along, overwritten by the next, as are the others.
+        Of the last frame [counts, 0 to 1023]; C-contiguous, and the same array all along, overwritten by the next, as
+        are the others.
     sigma : np.ndarray [shape=(rows, cols), dtype=float32] or None
         Standard deviation of `image` [counts]; None from a method that does not know.
     age_s : np.ndarray [shape=(rows, cols), dtype=float32] or None

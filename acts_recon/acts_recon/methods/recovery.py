@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_recon.contacts import Contact, ContactFinder
-from acts_recon.images import DeadTaxels, borders_of
+from acts_recon.images import DeadTaxels, borders_of, require_image
 from acts_recon.methods.method import Method, SkinSetup
 
 
@@ -36,9 +36,20 @@ class Recovery:
         Those of the skin: `image` and `sigma` hold what the taxels around say of them.
     image, sigma, age_s, measured
         See `Method`.
+
+    Raises
+    ------
+    ArrayError
+        When an image of the method is of another kind or size than `Method` says, or the dead taxels of another matrix.
     """
 
     def __init__(self, method: Method, skin: SkinSetup) -> None:
+        for name in ("image", "sigma", "age_s", "measured"):
+            image = getattr(method, name)
+            if image is not None or name == "image":
+                # Kept as flat views: of other images these would be copies, which no frame changes.
+                shape = (skin.geometry.rows, skin.geometry.cols)
+                require_image(f"{type(method).__name__}.{name}", image, shape, must_be_contiguous=True)
         self.method = method
         self.skin = skin
         self.geometry = skin.geometry

@@ -181,9 +181,9 @@ class SpectrumAnalyser:
 
         if self._dead is not None:
             # Only to tell contacts apart: what is estimated has no samples.
-            filled = mean.astype(np.float32)
+            filled = mean.astype(np.float32).reshape(self._shape)
             self._dead.fill(filled, None)
-            mean = filled.astype(np.float64)
+            mean = filled.astype(np.float64).ravel()
         pressed = mean > self._touch_counts
         if self.config.spectra_of == "patches":
             labels = np.where(pressed, self._borders.rectangle_of.astype(np.intp) + 1, 0).reshape(self._shape)
