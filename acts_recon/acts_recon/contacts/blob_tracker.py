@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
-from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.skin import ForceResponse, Response, TrackedBlob
 from acts_recon.contacts import blob_kernels, blob_track_kernels
 from acts_recon.contacts.blob_config import BlobConfig
 from acts_recon.contacts.blob_tracks import FREE, NONE
 from acts_recon.contacts.grid import Grid, Thresholds
-from acts_recon.images import Borders
+from acts_recon.images import Borders, require_image, require_times
 
 _LONGEST_PAUSE_S = 1.0
 _UNKNOWN = np.empty(0, dtype=np.float32)
@@ -33,6 +33,11 @@ class BlobTracker:
     config : BlobConfig, optional
     borders : Borders, optional
         No contact reaches over one, or goes from one side to the other.
+
+    Raises
+    ------
+    ArrayError
+        When the borders are of a picture of another size.
     """
 
     def __init__(
@@ -76,8 +81,10 @@ class BlobTracker:
         Raises
         ------
         ArrayError
-            When image or sigma are of another kind or size.
+            When image or sigma are of another kind or size, or the time is not finite. Everything is left as it was.
         """
+        require_times(time_s, 0.0)
+        time_s = float(time_s)
         flat = self._flat(image, "image")
         deviations = _UNKNOWN if sigma is None else self._flat(sigma, "sigma")
         dt_s = 0.0 if self._time_s is None else time_s - self._time_s
@@ -112,9 +119,8 @@ class BlobTracker:
 
     def _flat(self, image: NDArray[np.float32], name: str) -> NDArray[np.float32]:
         shape = (self.geometry.rows, self.geometry.cols)
-        if image.shape != shape or image.dtype != np.float32 or not image.flags.c_contiguous:
-            raise ArrayError(f"{name} of shape {image.shape}, {image.dtype}: needed is {shape}, float32, C-contiguous")
-        return image.reshape(-1)
+        require_image(name, image, shape, must_be_contiguous=True)
+        return as_compiled(image).reshape(-1)
 
     def _warm_up(self) -> None:
         """Compile, or load from the cache, what the first frame would otherwise wait seconds for."""

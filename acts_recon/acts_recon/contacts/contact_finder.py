@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.kernels import as_compiled
 from acts_core.skin import Response
 from acts_recon.contacts import contact_kernels
 from acts_recon.contacts.contact import NO_CONTACT, Contact
 from acts_recon.contacts.grid import Grid, Thresholds
-from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders
+from acts_recon.images import ERR_TOGETHER, NOISE_COUNTS, Borders, require_image
 
 _UNKNOWN = np.empty(0, dtype=np.float32)
 
@@ -33,6 +34,11 @@ class ContactFinder:
         See `acts_recon.images.uncertainty`.
     borders : Borders, optional
         What lies behind one is not beside the contact.
+
+    Raises
+    ------
+    ArrayError
+        When the borders are of a picture of another size.
     """
 
     def __init__(
@@ -43,6 +49,7 @@ class ContactFinder:
         noise_counts: float = NOISE_COUNTS,
         borders: Borders | None = None,
     ) -> None:
+        self._shape = (geometry.size,)
         self._grid = Grid.of(geometry, response, borders)
         self._thresholds = Thresholds(float(touch_counts), noise_counts, ERR_TOGETHER)
         self._results = np.zeros(contact_kernels.RESULTS)
@@ -57,10 +64,20 @@ class ContactFinder:
             Counts, 0 to 1023.
         sigma : np.ndarray [shape=(rows * cols,), dtype=float32], optional
             Standard deviations of the taxels [counts]; without them those of the contact are 0.
+
+        Raises
+        ------
+        ArrayError
+            When image or sigma are of another kind or size.
         """
+        require_image("image", image, self._shape)
+        if sigma is None:
+            sigma = _UNKNOWN
+        else:
+            require_image("sigma", sigma, self._shape)
         contact_kernels.find_contact(
-            image,
-            _UNKNOWN if sigma is None else sigma,
+            as_compiled(image),
+            as_compiled(sigma),
             self._grid,
             self._thresholds,
             self._results,

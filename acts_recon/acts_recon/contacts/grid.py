@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import ArrayGeometry
+from acts_core.errors import ArrayError
 from acts_core.skin import Response, force_table
 from acts_recon.images import Borders, borders_of, slope_table
 
@@ -40,10 +41,23 @@ class Grid(NamedTuple):
 
     @classmethod
     def of(cls, geometry: ArrayGeometry, response: Response, borders: Borders | None = None) -> Grid:
-        """Grid of an array; without `borders` it is one patch."""
+        """Grid of an array; without `borders` it is one patch.
+
+        Raises
+        ------
+        ArrayError
+            When the borders are of a picture of another size.
+        """
+        borders = borders or borders_of(geometry.rows, geometry.cols)
+        ends = borders.rectangles.max(axis=0, initial=0)
+        if (ends[1], ends[3], borders.rectangle_of.size) != (geometry.rows, geometry.cols, geometry.size):
+            raise ArrayError(
+                f"borders of a picture of {ends[1]} x {ends[3]}: this one is {geometry.rows} x {geometry.cols}; take "
+                "borders_of its layout"
+            )
         force_n = force_table(response)
         return cls(
-            bounds=(borders or borders_of(geometry.rows, geometry.cols)).bounds(),
+            bounds=borders.bounds(),
             cols=geometry.cols,
             force_n=force_n,
             slope_n=slope_table(force_n),
