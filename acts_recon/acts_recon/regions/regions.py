@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import TOUCH_COUNTS
-from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.skin import Layout, RegionContact, Response, SkinPatch, Vector, force_table
-from acts_recon.images import NOISE_COUNTS, DeadTaxels, require_recovered
+from acts_recon.images import NOISE_COUNTS, DeadTaxels, require_image, require_recovered
 from acts_recon.regions import region_kernels as kernels
 from acts_recon.regions.sharpness import Sharpness, SharpnessConfig
 from acts_recon.slip import NO_SLIP, SMALLEST_SIDE, Slip, SlipConfig, SlipWatch
@@ -48,7 +48,7 @@ class Regions:
     Raises
     ------
     ArrayError
-        For noise that is not above 0.
+        For noise that is not above 0, or dead taxels of another image.
     """
 
     def __init__(
@@ -62,6 +62,8 @@ class Regions:
         sharpness: SharpnessConfig | None = None,
         dead: DeadTaxels | None = None,
     ) -> None:
+        if dead is not None:
+            dead.require_shape(layout.rows, layout.cols)
         patches = layout.patches if dead is None else _with_live_taxels(layout.patches, dead)
         self._shape = (layout.rows, layout.cols)
         self._sigmas = (SlipConfig() if slip is None else slip).slip_sigmas
@@ -127,11 +129,9 @@ class Regions:
         ArrayError
             When an image has another shape or type, or it or the time is not finite.
         """
-        if image.shape != self._shape or image.dtype != np.float32:
-            raise ArrayError(
-                f"an image of shape {image.shape}, {image.dtype}: needed is {self._shape}, float32 (counts)"
-            )
+        require_image("image", image, self._shape)
         require_recovered(self._shape, time_s, 0.0, image=image)
+        image = as_compiled(image)
         results, regions = self._results, self._regions
         touched = kernels.find_regions(
             image,

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from acts_core.errors import ArrayError
 from acts_core.skin import SkinPatch
+from acts_recon.images import require_image
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.watch import NOISE_COUNTS, Slip, SlipWatch
 
@@ -43,6 +44,7 @@ class SlipDetector:
         patch = SkinPatch("patch", 0, rows, 0, cols, pitch_m=pitch_m, row_pitch_m=pitch_m)
         self._watch = SlipWatch(rows, cols, [patch], config, noise_counts)
         self.config = self._watch.config
+        self._shape = (rows, cols)
         self._counts = np.zeros(1)
 
     def reset(self) -> None:
@@ -64,6 +66,7 @@ class SlipDetector:
         ArrayError
             When it has another shape or type, or it or the time is not finite.
         """
+        require_image("image", image, self._shape)
         self._counts[0] = image.sum()
         if not (math.isfinite(time_s) and math.isfinite(self._counts[0])):
             # What is kept of them would tell of slip in all that follows.

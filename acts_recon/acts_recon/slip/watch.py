@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 
 from acts_core.array import TOUCH_COUNTS
 from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.skin import SkinPatch
-from acts_recon.images import LONGEST_PAUSE_S, NO_DEAD, DeadTaxels, require_recovered
+from acts_recon.images import LONGEST_PAUSE_S, NO_DEAD, DeadTaxels, require_image, require_recovered
 from acts_recon.slip import watch_kernels as kernels
 from acts_recon.slip.config import SlipConfig
 from acts_recon.slip.motion import RIDGE, SMALLEST_SIDE, Motion
@@ -80,7 +81,8 @@ class SlipWatch:
     Raises
     ------
     ArrayError
-        For a smaller patch, or noise that is not above 0.
+        For a smaller patch, or one that is not within the image, dead taxels of another image, or noise that is not
+        above 0.
     """
 
     def __init__(
@@ -100,6 +102,13 @@ class SlipWatch:
                     f"a patch of {patch.rows} x {patch.cols} taxels: motion is seen on {SMALLEST_SIDE} x "
                     f"{SMALLEST_SIDE} and more"
                 )
+            if min(patch.bounds) < 0 or patch.end_row > rows or patch.end_col > cols:
+                raise ArrayError(
+                    f"patch {patch.name} of rows {patch.first_row} to {patch.end_row - 1} and columns "
+                    f"{patch.first_col} to {patch.end_col - 1}: the image is {rows} x {cols}"
+                )
+        if dead is not None:
+            dead.require_shape(rows, cols)
         if not noise_counts > 0.0:
             raise ArrayError(f"noise_counts = {noise_counts}: allowed is a number above 0")
         self._pitches_m = [(patch.pitch_m, patch.row_pitch_m) for patch in patches]
@@ -177,28 +186,40 @@ class SlipWatch:
         Raises
         ------
         ArrayError
-            When an image has another shape or type, or it or the time is not finite.
+            When an image or `counts` have another shape or type, or one of them or the time is not finite. Everything
+            is left as it was.
         """
         ages = self._no_age if age_s is None else age_s
-        for given in (values, ages):
-            if given.shape != self._shape or given.dtype != np.float32:
-                raise ArrayError(
-                    f"an image of shape {given.shape}, {given.dtype}: needed is {self._shape}, float32 (counts)"
-                )
+        require_image("image", values, self._shape)
+        require_image("age_s", ages, self._shape)
+        self._require_counts(counts)
         # What is kept of them would tell of slip in all that follows.
         require_recovered(self._shape, time_s, 0.0, image=values, age_s=age_s)
+        time_s = float(time_s)
         if not 0.0 <= time_s - self._time_s <= LONGEST_PAUSE_S:
             self.reset()
         self._pace_s, self._period_s = self._period_s, time_s - self._time_s
         self._time_s = time_s
-        kernels.update(time_s, values, ages, self._memory)
-        kernels.watch(time_s, self._bounds, counts, self._memory, self._tuning, self._results)
+        kernels.update(time_s, as_compiled(values), as_compiled(ages), self._memory)
+        kernels.watch(time_s, self._bounds, as_compiled(counts), self._memory, self._tuning, self._results)
         results = self._results.tolist()
         shares = [self._share_of_limits(p, numbers) for p, numbers in enumerate(results)]
         # Two patches that move at once confirm each other.
         together = self.config.slip_together_share
         needed = together if sum(share >= together for share in shares) > 1 else 1.0
         return [self._slip(p, numbers, shares[p] >= needed) for p, numbers in enumerate(results)]
+
+    def _require_counts(self, counts: NDArray[np.float64]) -> None:
+        patches = len(self._told_s)
+        # Lists come from callers without types.
+        if not isinstance(counts, np.ndarray):
+            raise ArrayError(f"counts {type(counts).__name__}: needed is an array of numpy, of {patches} float64")
+        if counts.shape != (patches,) or counts.dtype != np.float64:
+            raise ArrayError(
+                f"counts of shape {counts.shape}, {counts.dtype}: needed is ({patches},), float64, a sum for each patch"
+            )
+        if not np.isfinite(counts).all():
+            raise ArrayError("counts with NaN or infinity: needed is a finite sum for each patch; leave the image out")
 
     def _share_of_limits(self, patch: int, numbers: list[float]) -> float:
         """Motion relative to the limit that it is farthest below; 0 where it cannot be told."""

@@ -113,7 +113,7 @@ def test_a_contact_that_the_border_cuts_grows_without_slipping_and_slips_where_i
     def told(cut_taxels: float, image_at: Callable[[int], NDArray[np.float32]]) -> bool:
         watch = SlipWatch(8, 8, [patch], SlipConfig(slip_cut_taxels=cut_taxels))
         images = [image_at(k) for k in range(300)]
-        slips = [watch.step(k * 1e-3, image, np.array([image.sum()]))[0] for k, image in enumerate(images)]
+        slips = [watch.step(k * 1e-3, image, np.array([image.sum()], float))[0] for k, image in enumerate(images)]
         return any(slip.slipping for slip in slips)
 
     def grows(k: int) -> NDArray[np.float32]:
