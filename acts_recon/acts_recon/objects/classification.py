@@ -20,9 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from acts_core.array import COUNT_MAX, TOUCH_COUNTS
+from acts_core.array import COUNT_MAX, TOUCH_COUNTS, ArrayGeometry
 from acts_core.errors import ArrayError
 from acts_core.settings import setting, validate
+from acts_recon.images import PlacedSamples
 from acts_recon.objects import classification_kernels as kernels
 from acts_recon.objects.object_library import ObjectLibrary
 from acts_recon.sparse import SPARSITY_RATIO, Problems, in_blocks, sparsity
@@ -92,6 +93,7 @@ class Classifier:
         )
         columns = self.config.columns_for(taxels, library)
         self._problems = Problems.empty(1, taxels, columns)
+        self._samples = PlacedSamples(ArrayGeometry(library.rows, library.cols), None)
         self._residuals = np.ones(library.n_classes, dtype=np.float32)
         # Compile, or load from the cache, what the first frame would otherwise wait seconds for.
         first = np.zeros(1, dtype=np.uint16)
@@ -115,22 +117,12 @@ class Classifier:
         Raises
         ------
         ArrayError
-            When the frame does not fit the array.
+            When the frame does not fit the array or holds impossible values. Everything is left as it was.
         """
         taxels = self.library.rows * self.library.cols
-        if indices.dtype != np.uint16 or counts.dtype != np.uint16 or indices.ndim != 1 or counts.ndim != 1:
-            raise ArrayError(
-                f"indices {indices.dtype} {indices.shape}, counts {counts.dtype} {counts.shape}: "
-                "needed are two rows of uint16"
-            )
-        if indices.size != counts.size or not 1 <= indices.size <= taxels:
-            raise ArrayError(
-                f"{indices.size} indices and {counts.size} counts: needed are as many, 1 to {taxels} of them"
-            )
-        if int(indices.max()) >= taxels:
-            raise ArrayError(
-                f"index {indices.max()}: an array of {self.library.rows} x {self.library.cols} has 0 to {taxels - 1}"
-            )
+        if np.size(indices) > taxels:
+            raise ArrayError(f"{np.size(indices)} indices: needed are 1 to {taxels} of them")
+        indices, counts = self._samples.of(indices, counts)
         touched = kernels.class_residuals(
             self._model,
             indices,

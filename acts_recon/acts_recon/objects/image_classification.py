@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
 from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.settings import setting, validate
 from acts_core.skin import ForceResponse, Response
 from acts_recon.objects import image_classification_kernels as kernels
@@ -215,20 +216,21 @@ class ImageClassifier:
         Raises
         ------
         ArrayError
-            When the image does not fit the library.
+            When the image does not fit the library, or is not C-contiguous. Everything is left as it was.
         """
         config, residuals = self.config, self._state.residuals
         inflated_sigma = self._inflated_sigma(image, sigma, age_s, period_s)
         # The residuals of earlier images fade over the images that were not classified, too.
         skipped_s, self._skipped_s = self._skipped_s, 0.0
         kept = math.exp(-skipped_s / config.memory_s) if config.memory_s > 0 else 0.0
-        touched = kernels.class_residuals(self._model, image.ravel(), inflated_sigma, self._settings, kept, self._state)
+        flat = as_compiled(image).ravel()
+        touched = kernels.class_residuals(self._model, flat, inflated_sigma, self._settings, kept, self._state)
         if not touched:
             return Classification(False, 0, residuals, 0.0)
         weight = src_weight(self._rate_of_change.rate_counts_per_s, config)
         if weight >= _LEAST_WEIGHT and image_src_kernels.class_residuals(
             self._src_model,
-            image.ravel(),
+            flat,
             inflated_sigma,
             residuals,
             self._explained,
@@ -245,6 +247,11 @@ class ImageClassifier:
         """Sigma of each taxel, inflated by the rate of change [counts], flat; checks the image."""
         shape = (self.library.rows, self.library.cols)
         for name, array in (("image", image), ("sigma", sigma), ("age_s", age_s)):
+            # Lists come from callers without types.
+            if not isinstance(array, np.ndarray):
+                raise ArrayError(
+                    f"{name} {type(array).__name__}: needed is an array of numpy of {shape[0]} x {shape[1]}, float32"
+                )
             if array.shape != shape or array.dtype != np.float32 or not array.flags.c_contiguous:
                 raise ArrayError(
                     f"{name} {array.shape}, {array.dtype}: needed is a C-contiguous float32 array of "
@@ -252,6 +259,8 @@ class ImageClassifier:
                 )
         if not 0 <= period_s < math.inf:
             raise ArrayError(f"period_s = {period_s}: needed is a finite time, not negative")
-        inflated_sigma = self._rate_of_change.step(image, sigma, age_s, period_s).ravel()
+        period_s = float(period_s)
+        fields = as_compiled(image), as_compiled(sigma), as_compiled(age_s)
+        inflated_sigma = self._rate_of_change.step(*fields, period_s).ravel()
         self._skipped_s += period_s
         return inflated_sigma
