@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 from acts_core.array import ArrayGeometry
 from acts_core.skin import ForceResponse, Response
 from acts_recon.contacts import BlobConfig, BlobTracker, TrackedBlob
-from acts_recon.images import LEAST_NOISE_COUNTS, LONGEST_PAUSE_S, Borders, borders_of, require_recovered
+from acts_recon.images import (
+    LEAST_NOISE_COUNTS,
+    LONGEST_PAUSE_S,
+    Borders,
+    borders_of,
+    require_image,
+    require_recovered,
+)
 from acts_recon.impacts.config import ImpactConfig
 from acts_recon.impacts.impact import Impact
 from acts_recon.impacts.reports import Reports
@@ -125,6 +132,10 @@ class ImpactDetector:
         """
         shape = self._geometry.rows, self._geometry.cols
         require_recovered(shape, time_s, duration_s, image=image, sigma=sigma, age_s=age_s, measured=measured)
+        # Here, before anything is kept of the frame: the tracker would refuse them later.
+        require_image("image", image, shape, must_be_contiguous=True)
+        if sigma is not None:
+            require_image("sigma", sigma, shape, must_be_contiguous=True)
         if self._before_s is not None and not 0.0 <= time_s - self._before_s <= LONGEST_PAUSE_S:
             self.reset()
         before_s = time_s - duration_s if self._before_s is None or self._before_s == time_s else self._before_s

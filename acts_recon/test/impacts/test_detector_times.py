@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -52,3 +55,24 @@ def test_images_that_cannot_be_are_refused_and_no_touch_is_forgotten(name: str, 
                     detector.step(0.002 * frame, 0.002, **{**given, name: wrong})
         told += detector.step(0.002 * frame, 0.002, **given)
     assert [(impact.number, impact.is_over) for impact in told] == [(1, False), (1, True)]
+
+
+@pytest.mark.parametrize("name", ["image", "sigma"])
+@pytest.mark.parametrize(
+    "made", [lambda image: image.astype(np.float64), np.asfortranarray, lambda image: image.tolist()]
+)
+def test_images_of_another_kind_are_refused_and_leave_no_trace(made: Callable[[Any], Any], name: str) -> None:
+    settings = ReconstructionSettings(touch_counts=25)
+    detector, undisturbed = (settings.impact_detector(settings.recovery()) for _ in range(2))
+    nothing = np.zeros((settings.rows, settings.cols), dtype=np.float32)
+    rows, cols = np.indices(nothing.shape)
+    touched = (400 * np.exp(-((rows - 10) ** 2 + (cols - 22) ** 2) / 4.5)).astype(np.float32)
+    for frame in range(60):
+        image = touched if 10 <= frame < 40 else nothing
+        given = {"image": image, "sigma": nothing + 2, "measured": image, "age_s": nothing}
+        if frame == 25:
+            # Later than the next ones: were its time kept, the touch would be forgotten.
+            with pytest.raises(ArrayError, match=f"{name} .*needed"):
+                detector.step(0.002 * frame + 10.0, 0.002, **{**given, name: made(given[name])})
+        told = detector.step(0.002 * frame, 0.002, **given)
+        assert repr(told) == repr(undisturbed.step(0.002 * frame, 0.002, **given))
