@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from acts_core.errors import ArrayError
+from acts_core.kernels import as_compiled
 from acts_core.robots import ur5e
 from acts_core.settings import setting, validate
 from acts_sim.ball.ball_kernels import plate_motion
@@ -48,15 +50,28 @@ class JointMotion:
     ----------
     q_rad, qd_rad_s, qdd_rad_s2 : np.ndarray [shape=(6,), dtype=float64]
         Angles, velocities and accelerations, base to wrist 3.
+
+    Raises
+    ------
+    ArrayError
+        When one of them is of another kind or size.
     """
 
     q_rad: NDArray[np.float64]
     qd_rad_s: NDArray[np.float64]
     qdd_rad_s2: NDArray[np.float64]
 
+    def __post_init__(self) -> None:
+        for name, values in (("q_rad", self.q_rad), ("qd_rad_s", self.qd_rad_s), ("qdd_rad_s2", self.qdd_rad_s2)):
+            # Lists come from callers without types.
+            if not isinstance(values, np.ndarray):
+                raise ArrayError(f"{name} is {type(values).__name__}: needed is an array of numpy, of 6 float64")
+            if values.shape != (6,) or values.dtype != np.float64:
+                raise ArrayError(f"{name} of shape {values.shape}, {values.dtype}: needed is (6,), float64")
+
     @classmethod
     def still(cls, q_rad: NDArray[np.float64]) -> JointMotion:
-        """An arm at rest at angles [rad], shape (6,)."""
+        """An arm at rest at angles [rad], shape (6,); raises as the class does."""
         return cls(np.asarray(q_rad, dtype=np.float64), np.zeros(6), np.zeros(6))
 
     def is_plausible(self) -> bool:
@@ -98,9 +113,9 @@ class PlateMotion:
 def motion(config: PlateConfig, joints: JointMotion) -> PlateMotion:
     """Motion of the plate for a motion of the joints."""
     rows = plate_motion(
-        joints.q_rad,
-        joints.qd_rad_s,
-        joints.qdd_rad_s2,
+        as_compiled(joints.q_rad),
+        as_compiled(joints.qd_rad_s),
+        as_compiled(joints.qdd_rad_s2),
         _DH,
         config.mount_yaw_rad,
         config.surface_height_m,

@@ -14,6 +14,7 @@ from acts_core.array import ArrayGeometry
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.robots import ur5e
 from acts_core.skin import ForceResponse, layout
+from acts_sim.ball.ball_kernels import plate_motion
 from acts_sim.ball.ball_plate import JointMotion
 from acts_sim.ball.world import Phase, World, WorldConfig, WorldState
 
@@ -153,6 +154,41 @@ def test_bad_joints_are_refused_and_counted_and_the_plate_keeps_its_pose(bad: fl
     assert state.phase is Phase.ROLLING
     assert np.isfinite(world.counts).all()
     assert run(world, good, 0.01).joints_refused == 50
+
+
+@pytest.mark.parametrize("where", ["q_rad", "qd_rad_s", "qdd_rad_s2"])
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ([0.0] * 6, "is list: needed is an array of numpy, of 6 float64"),
+        (None, "is NoneType"),
+        (np.zeros(5), r"of shape \(5,\), float64: needed is \(6,\), float64"),
+        (np.zeros(8), r"of shape \(8,\)"),
+        (np.zeros((1, 6)), r"of shape \(1, 6\)"),
+        (np.zeros(()), r"of shape \(\)"),
+        (np.zeros(6, np.float32), "float32"),
+        (np.zeros(6, np.int64), "int64"),
+        (np.zeros(6, ">f8"), ">f8"),
+    ],
+)
+def test_joints_of_another_kind_are_refused(where: str, given: Any, words: str) -> None:
+    values: dict[str, Any] = {name: np.zeros(6) for name in ("q_rad", "qd_rad_s", "qdd_rad_s2")}
+    with pytest.raises(ArrayError, match=f"{where} .*{words}"):
+        JointMotion(**{**values, where: given})
+    with pytest.raises(ArrayError, match="q_rad of shape"):
+        JointMotion.still(np.zeros(7))
+
+
+def test_joints_in_another_order_move_the_plate_and_nothing_is_compiled() -> None:
+    world, plain = World(WorldConfig(start_after_s=0.0)), World(WorldConfig(start_after_s=0.0))
+    joints = np.zeros((6, 2))
+    joints[:, 0] = ur5e.LEVEL_Q_RAD
+    fixed = np.zeros(6)
+    fixed.flags.writeable = False
+    plain.step(LEVEL, DT_S)
+    compiled = len(plate_motion.signatures)  # type: ignore[attr-defined]
+    assert world.step(JointMotion(joints[:, 0], joints[:, 1], fixed), DT_S).ball == plain.state.ball
+    assert len(plate_motion.signatures) == compiled  # type: ignore[attr-defined]
 
 
 def test_a_wild_arm_never_makes_a_field_that_is_not_one() -> None:
