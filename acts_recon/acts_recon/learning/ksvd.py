@@ -106,7 +106,8 @@ def learn_dictionary(
     Raises
     ------
     ArrayError
-        When the patches are too few, of the wrong shape, all 0 or not finite, or `resume` does not fit.
+        When the patches are too few, of the wrong shape, all 0 or not finite, or `resume` does not fit or is not
+        finite.
     """
     X = _checked(patches, config)
     # Every patch counts alike, however hard it was pressed: what is learnt is shape.
@@ -115,12 +116,15 @@ def learn_dictionary(
     D = np.ascontiguousarray(X[rng.choice(n, size=config.atoms, replace=False)])
     first = 1
     if resume is not None:
-        if resume.atoms.shape != D.shape or not 1 <= resume.iteration < config.iterations:
+        atoms = np.asarray(resume.atoms, dtype=np.float32)
+        if atoms.shape != D.shape or not 1 <= resume.iteration < config.iterations:
             raise ArrayError(
-                f"state after iteration {resume.iteration} with atoms {resume.atoms.shape}: "
+                f"state after iteration {resume.iteration} with atoms {atoms.shape}: "
                 f"needed are 1 to {config.iterations - 1} and {D.shape}"
             )
-        D[:] = resume.atoms
+        if not np.isfinite(atoms).all():
+            raise ArrayError("the atoms of the state hold NaN or infinity; learn from the beginning")
+        D[:] = atoms
         first = resume.iteration + 1
     sparsity = min(config.sparsity, n_pixels, config.atoms)
     chosen = np.zeros((n, sparsity), dtype=np.int32)
@@ -143,7 +147,8 @@ def learn_dictionary(
 
 
 def _checked(patches: NDArray[np.floating], config: KsvdConfig) -> NDArray[np.float32]:
-    X = np.array(patches, dtype=np.float32)
+    # In this order, for in another the last digits of sums may differ.
+    X = np.array(patches, dtype=np.float32, order="C")
     require_patches(X)
     if X.shape[0] < config.atoms:
         raise ArrayError(

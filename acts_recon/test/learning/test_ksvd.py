@@ -121,6 +121,25 @@ def test_unusable_patches_are_refused(patches: NDArray, word: str) -> None:
         learn_dictionary(patches, KsvdConfig(atoms=10), rng=np.random.default_rng(0))
 
 
+def test_patches_in_any_order_in_memory_give_the_same_atoms() -> None:
+    patches = np.random.default_rng(2).random((60, 16)).astype(np.float32)
+    config = KsvdConfig(atoms=20, sparsity=3, iterations=2)
+    atoms = learn_dictionary(patches, config, rng=np.random.default_rng(0))
+    for same in (np.asfortranarray(patches), np.repeat(patches, 2, axis=1)[:, ::2]):
+        np.testing.assert_array_equal(learn_dictionary(same, config, rng=np.random.default_rng(0)), atoms)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_a_state_that_is_not_finite_is_refused(wrong: float) -> None:
+    patches = np.random.default_rng(2).random((60, 16)).astype(np.float32)
+    atoms = patches[:20].copy()
+    atoms[3, 4] = wrong
+    with pytest.raises(ArrayError, match="the atoms of the state hold NaN or infinity"):
+        learn_dictionary(
+            patches, KsvdConfig(atoms=20), rng=np.random.default_rng(0), resume=KsvdState(iteration=1, atoms=atoms)
+        )
+
+
 def test_settings_are_checked() -> None:
     with pytest.raises(SettingsError, match="sparsity = 0"):
         KsvdConfig(sparsity=0)
