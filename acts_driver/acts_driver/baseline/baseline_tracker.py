@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.array import COUNT_MAX
-from acts_core.errors import CalibrationError
+from acts_core.errors import ArrayError, CalibrationError
 from acts_core.frames import SampleFrame
 from acts_core.runtime import NS_PER_S, Pace
 from acts_core.skin import Layout, dead_taxels_named, layout
@@ -22,13 +22,12 @@ from acts_core.words import counted
 from acts_driver.baseline import baseline_kernels
 from acts_driver.baseline.baseline import Baseline, BaselineSource
 from acts_driver.baseline.baseline_config import BaselineConfig
+from acts_driver.baseline.readings import LEAST_READINGS, Block, Readings, noise_of, readings_of
 
 _LARGEST_STEP = 0.05
 _HISTORY_STEP_NS = 10 * NS_PER_S
 _HISTORY_STEPS = 6
 
-# Readings of a taxel that a calibration needs.
-_LEAST_READINGS = 8
 # A reading farther from the baseline than this is no drift: counts, or standard deviations of the taxel's noise.
 _FREEZE_COUNTS = 20.0
 _FREEZE_SIGMAS = 6.0
@@ -55,7 +54,7 @@ class Calibration(NamedTuple):
         if self.measured == valid.size:
             return done
         return (
-            f"{done}; the other {valid.size - self.measured} had fewer than {_LEAST_READINGS} readings and stay as "
+            f"{done}; the other {valid.size - self.measured} had fewer than {LEAST_READINGS} readings and stay as "
             "they were: the schemes raster and uniform measure all"
         )
 
@@ -73,49 +72,6 @@ class Tare(NamedTuple):
         if not self.unsteady:
             return done
         return f"{done}, but {self.unsteady} of them changed meanwhile: keep what lies on the skin still and tare again"
-
-
-class _Block:
-    """Statistics of every taxel over some time."""
-
-    def __init__(self, size: int) -> None:
-        self.n = np.zeros(size, dtype=np.int64)
-        self.sums = np.zeros((size, 2))
-        self.ends = np.zeros((size, 2), dtype=np.int64)
-        self.clear()
-
-    def clear(self) -> None:
-        self.n[:] = 0
-        self.sums[:] = 0.0
-        self.ends[:, 0] = COUNT_MAX + 1
-        self.ends[:, 1] = -1
-
-
-class _Readings(NamedTuple):
-    """Of every taxel: number of readings, their mean, standard deviation and largest difference; 0 without readings."""
-
-    n: NDArray[np.int64]
-    mean: NDArray[np.float64]
-    deviation: NDArray[np.float64]
-    span: NDArray[np.int64]
-
-
-def _readings(blocks: Sequence[_Block]) -> _Readings:
-    n = np.sum([block.n for block in blocks], axis=0)
-    sums = np.sum([block.sums for block in blocks], axis=0)
-    known = np.maximum(n, 1)
-    mean = sums[:, 0] / known
-    deviation = np.sqrt(np.maximum(sums[:, 1] / known - mean**2, 0.0))
-    low = np.min([block.ends[:, 0] for block in blocks], axis=0)
-    high = np.max([block.ends[:, 1] for block in blocks], axis=0)
-    return _Readings(n, mean, deviation, np.where(n > 0, high - low, 0))
-
-
-def _noise_of(readings: _Readings, still: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """The noise of every taxel; where it has few readings, that of all still taxels together."""
-    freedom = int(np.maximum(readings.n - 1, 0)[still].sum())
-    together = np.sqrt((readings.n * readings.deviation**2)[still].sum() / max(freedom, 1))
-    return np.where(readings.n < _LEAST_READINGS, together, readings.deviation)
 
 
 class BaselineTracker:
@@ -147,7 +103,7 @@ class BaselineTracker:
         self._lock = threading.Lock()
         self._block_ns = int(self.config.tare_s * NS_PER_S)
         # One grows, the others are the last whole ones.
-        self._blocks = [_Block(size) for _ in range(self.config.calibration_blocks + 1)]
+        self._blocks = [Block(size) for _ in range(self.config.calibration_blocks + 1)]
         self._growing = 0
         self._growing_since_ns = -1
         # Of the blocks: those of a slow board begin with each of its frames.
@@ -172,19 +128,42 @@ class BaselineTracker:
         ----------
         skin : Layout
             Of this matrix.
+
+        Raises
+        ------
+        ArrayError
+            It is of another.
         """
+        self._require_shape("a layout", (skin.matrix_rows, skin.matrix_cols))
         with self._lock:
             self._neighbours = skin.neighbours
 
     def observe(self, frames: Sequence[tuple[SampleFrame, int]]) -> None:
-        """Update by frames with the times of their measurement [ns], in order."""
+        """Update by frames with the times of their measurement [ns], in order.
+
+        Raises
+        ------
+        ArrayError
+            One of them is of another array, or its samples are no pairs. Everything is left as it was.
+        """
+        for frame, _ in frames:
+            self._require_shape("a frame", (frame.rows, frame.cols))
+            if len(frame.indices) != len(frame.counts):
+                raise ArrayError(f"{len(frame.indices)} indices and {len(frame.counts)} counts: needed are as many")
         with self._lock:
             for frame, time_ns in frames:
                 self._advance(time_ns)
                 self._update(frame.indices, frame.counts, time_ns)
 
     def set(self, baseline: Baseline) -> None:
-        """Set the baseline, for example to one from a file."""
+        """Set the baseline, for example to one from a file.
+
+        Raises
+        ------
+        ArrayError
+            It is of another array.
+        """
+        self._require_shape("a baseline", baseline.counts.shape)
         with self._lock:
             self._set(
                 baseline.counts.ravel(),
@@ -210,11 +189,11 @@ class BaselineTracker:
                     f"{self._whole * self.config.tare_s:g} s of frames so far, a calibration needs "
                     f"{needed * self.config.tare_s:g} s: wait and call again"
                 )
-            readings = _readings(self._blocks)
-            measured = readings.n >= _LEAST_READINGS
+            readings = readings_of(self._blocks)
+            measured = readings.n >= LEAST_READINGS
             if not measured.any():
                 raise CalibrationError(
-                    f"no taxel was measured {_LEAST_READINGS} times in the last "
+                    f"no taxel was measured {LEAST_READINGS} times in the last "
                     f"{needed * self.config.tare_s:g} s: raise the frame rate"
                 )
             touched = self._touched(readings)
@@ -249,14 +228,14 @@ class BaselineTracker:
                 raise CalibrationError(
                     f"less than {self.config.tare_s:g} s of frames so far: wait until the board is read and call again"
                 )
-            readings = _readings([self._blocks[self._growing], self._blocks[self._growing - 1]])
+            readings = readings_of([self._blocks[self._growing], self._blocks[self._growing - 1]])
             measured = readings.n > 0
             changed = readings.span > self.config.touch_counts
             unsteady = self._beside_others(changed)
             known = self._freeze >= 0
             self._set(
                 np.where(measured, readings.mean, self._baseline),
-                np.where(known, self._noise, _noise_of(readings, ~changed)),
+                np.where(known, self._noise, noise_of(readings, ~changed)),
                 measured | known,
                 BaselineSource.TARE,
             )
@@ -292,9 +271,14 @@ class BaselineTracker:
     def below(self) -> int:
         """Number of taxels that read lower than drift explains, as when what lay there at a tare was taken off."""
         with self._lock:
-            readings = _readings([self._blocks[self._growing - 1]])
+            readings = readings_of([self._blocks[self._growing - 1]])
             low = readings.mean < self._baseline - self._freeze
             return int(np.count_nonzero((readings.n > 0) & (self._freeze >= 0) & low))
+
+    def _require_shape(self, what: str, shape: tuple[int, ...]) -> None:
+        if shape != self._shape:
+            rows, cols = self._shape
+            raise ArrayError(f"{what} of {' x '.join(map(str, shape))}: this baseline is of {rows} x {cols}")
 
     def _advance(self, time_ns: int) -> None:
         """Begin the next block where it is time; begin anew after a pause or a jump of the clock."""
@@ -337,7 +321,7 @@ class BaselineTracker:
             _LARGEST_STEP,
         )
 
-    def _touched(self, readings: _Readings) -> NDArray[np.bool_]:
+    def _touched(self, readings: Readings) -> NDArray[np.bool_]:
         """Taxels that were pressed, or let go, in the time of these readings. One alone is a broken taxel, no touch."""
         known = np.where(self._freeze >= 0, self._baseline, 0.0)
         limit = self.config.touch_counts

@@ -15,6 +15,7 @@ from tracked_skin import COLS, CONFIG, FRAME_NS, ROWS, SIZE, Skin
 
 from acts_core.errors import ArrayError, CalibrationError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
+from acts_core.skin import layout
 from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
 from acts_driver.baseline.baseline import BaselineSource
 
@@ -103,6 +104,31 @@ def test_taxels_that_are_not_measured_are_not_known() -> None:
     baseline = few.calibrate().baseline
     assert baseline.valid.ravel().tolist() == [True] * 3 + [False] * (SIZE - 3)
     assert baseline.counts.ravel().tolist() == [9.0] * 3 + [0.0] * (SIZE - 3)
+
+
+def test_what_is_of_another_array_is_refused_and_leaves_the_baseline_as_it_was() -> None:
+    skin = Skin()
+    skin.run(1.0)
+    before = skin.tracker.tare().baseline
+    row = np.arange(SIZE, dtype=np.uint16)
+    whole = SampleFrame(0, 0, 0, Scheme.RASTER, ROWS, COLS, 0, row, row)
+    others = {
+        "a frame of 64 x 64": whole._replace(rows=64, cols=64),
+        f"{SIZE} indices and {SIZE - 1} counts": whole._replace(counts=row[:-1]),
+        f"{SIZE - 1} indices and {SIZE} counts": whole._replace(indices=row[:-1]),
+    }
+    for told, frame in others.items():
+        with pytest.raises(ArrayError, match=told):
+            skin.tracker.observe([(whole, 10**10), (frame, 10**10 + FRAME_NS)])
+    with pytest.raises(ArrayError, match=f"layout of 8 x 4: this baseline is of {ROWS} x {COLS}"):
+        skin.tracker.arrange(layout("square", 8, 4))
+    counts = np.zeros((8, 4), dtype=np.float32)
+    with pytest.raises(ArrayError, match=f"baseline of 8 x 4: this baseline is of {ROWS} x {COLS}"):
+        skin.tracker.set(Baseline(counts, counts, counts > 0, BaselineSource.FILE, 0))
+    present = skin.tracker.present()
+    assert present is not None
+    assert present.time_ns == before.time_ns
+    assert present.counts.tolist() == before.counts.tolist()
 
 
 def test_taxels_that_are_not_measured_are_not_told_to_be_calibrated_or_tared() -> None:
