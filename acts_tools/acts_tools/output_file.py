@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -95,13 +96,40 @@ def _require_new_files(path: Path) -> None:
         ) from error
 
 
-def require_picture(path: Path | None, *, makes_folder: bool = False, report: Path | None = None) -> None:
+def require_apart(path: Path | None, folder: Path | None, *suffixes: str) -> None:
+    """Raise an error, before any work, if a file for results has the name of one that the command writes in a folder.
+
+    Parameters
+    ----------
+    path, folder : Path or None
+        The file, and the folder; None is allowed.
+    *suffixes : str
+        How the names end that are written there.
+
+    Raises
+    ------
+    RecordingError
+        When one would take the place of the other.
+    """
+    if path is None or folder is None:
+        return
+    place = Path(os.path.realpath(path))
+    if place.parent == Path(os.path.realpath(folder)) and place.suffix in suffixes:
+        raise RecordingError(
+            f"{path}: has the name of a file that the command writes in {folder}; give one that does not end in "
+            f"{' or '.join(suffixes)}"
+        )
+
+
+def require_picture(
+    path: Path | None, *, makes_folder: bool = False, report: Path | None = None, reads: Sequence[Path] = ()
+) -> None:
     """Raise an error, as `require_writable`, also for a name whose end is no kind of picture.
 
     Matplotlib would add an end to a name without one, and so write beside a folder of that name. `report` is the file
     that `write_json` writes, of which the picture would take the place.
     """
-    require_writable(path, makes_folder=makes_folder, takes_stream=False)
+    require_writable(path, makes_folder=makes_folder, takes_stream=False, reads=reads)
     if path is not None and report is not None and path.resolve() == report.resolve():
         raise RecordingError(f"{path}: is to be both the picture and the JSON file; give one of them another name")
     if path is not None and path.suffix.lower() not in _PICTURES:

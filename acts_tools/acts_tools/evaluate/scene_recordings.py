@@ -7,15 +7,19 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
 from acts_core.files import write_whole
+from acts_tools.evaluate import report
+from acts_tools.output_file import require_apart
 from acts_tools.progress import tell
 
 _SHORTEST_S = 1.0
+_SUFFIX = ".npy"
 
 
 def add_recordings_argument(parser: argparse.ArgumentParser, which: str) -> None:
@@ -33,6 +37,18 @@ def add_recordings_argument(parser: argparse.ArgumentParser, which: str) -> None
         metavar="FOLDER",
         help=f"write {which} here, for a virtual board to play (docs/simulation.md)",
     )
+
+
+def scene_results(arguments: argparse.Namespace, about: dict[str, Any]) -> report.Results:
+    """The report of a command with ``--recordings``, which begins with `about`.
+
+    Raises
+    ------
+    RecordingError
+        When its file cannot be written, or has the name of a recording.
+    """
+    require_apart(arguments.json, arguments.recordings, _SUFFIX)
+    return report.Results(arguments.json, about)
 
 
 def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz: float) -> None:
@@ -54,7 +70,7 @@ def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz
     RecordingError
         When it cannot be written.
     """
-    path = folder / f"{name}.npy"
+    path = folder / f"{name}{_SUFFIX}"
     missing = round(_SHORTEST_S * rate_hz) - len(frames)
     if missing > 0 and np.array_equal(frames[-1], frames[0]):
         frames = np.concatenate((frames, np.repeat(frames[:1], missing, axis=0)))

@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
             f"--json {arguments.json}: is where a figure keeps its own numbers or picture; give another name"
         )
     one = Run(out, arguments.seed, arguments.fast, arguments.again)
-    results = report.Results(arguments.json, one.settings)
+    results = report.Results(arguments.json, one.settings, reads=[] if published is None else published.files())
     if published is None and any(figure.has_published for figure in figures):
         print(_WITHOUT)
     code = 0

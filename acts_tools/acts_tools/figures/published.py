@@ -51,6 +51,10 @@ class PublishedData:
     def _add_point(self, row: dict[str, str]) -> None:
         self._points[int(row["curve_id"])].append((float(row["x"]), float(row["y"])))
 
+    def files(self) -> list[Path]:
+        """What of the folder is published data."""
+        return [path for path in self.folder.iterdir() if path.suffix in (".csv", ".npz")]
+
     def points(self, figure: str, label: str, axes: int = 0) -> NDArray[np.float64]:
         """Points of a curve by its file, label and axes; np.ndarray [shape=(n, 2), dtype=float64].
 

@@ -27,7 +27,7 @@ from acts_tools.arguments import add_settings, random_seed, refuse_unused, whole
 from acts_tools.output_file import require_writable
 from acts_tools.progress import Progress
 from acts_tools.training.checkpoint import Checkpoint
-from acts_tools.training.frames import Source, model_frames, recorded_frames
+from acts_tools.training.frames import Source, files_of, model_frames, recorded_frames
 from acts_tools.training.patches import PatchChoice, choose_patches
 
 _OF_KSVD = ("atoms", "sparsity", "iterations")
@@ -176,8 +176,9 @@ def _check(arguments: argparse.Namespace) -> None:
         refuse_unused(arguments, "with --frames", "presses")
     if arguments.frames is None and arguments.topic:
         raise SettingsError(f"--topic {arguments.topic}: a topic of the bags of --frames, which were not given")
-    require_writable(arguments.output, takes_stream=False, reads=arguments.frames or ())
-    require_writable(_partial(arguments.output), takes_stream=False)
+    reads = files_of(arguments.frames or ())
+    require_writable(arguments.output, takes_stream=False, reads=reads)
+    require_writable(_partial(arguments.output), takes_stream=False, reads=reads)
 
 
 def _partial(output: Path) -> Path:

@@ -18,6 +18,9 @@ from acts_core.files import load_frames
 from acts_sim.pressing import ContactModel, ContactObject
 from acts_tools.large_files import tell_if_large
 
+_OF_A_BAG = (".zstd", "metadata.yaml")
+"""How the names of a bag's other files end: compressed ones, and what it says of itself."""
+
 
 @dataclass(frozen=True)
 class Source:
@@ -38,6 +41,15 @@ class Source:
 def is_bag(path: Path) -> bool:
     """Whether a path is a bag: a folder, or a file of one of rosbag2's storages."""
     return path.is_dir() or path.suffix in (".mcap", ".db3")
+
+
+def files_of(paths: Sequence[Path]) -> list[Path]:
+    """The files that are read of recordings: of a bag's folder those of the bag, not what else is there."""
+    files = []
+    for path in paths:
+        parts = path.iterdir() if path.is_dir() else [path]
+        files += [part for part in parts if part == path or is_bag(part) or part.name.endswith(_OF_A_BAG)]
+    return files
 
 
 def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:

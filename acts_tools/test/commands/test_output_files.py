@@ -181,6 +181,78 @@ def test_recordings_are_not_replaced_by_what_is_made_of_them(
     assert recordings.read_bytes() == before
 
 
+def test_a_picture_does_not_replace_the_recording_that_it_shows(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "recording.png"
+    path.write_bytes(b"frames")
+    assert main(["evaluate", "slip", "--frames", str(path), "--picture", str(path)]) == 1
+    assert f"{path}: is read, and would be lost" in capsys.readouterr().err
+    assert path.read_bytes() == b"frames"
+
+
+@pytest.mark.parametrize("name", ["touch_0.mcap", "touch_0.db3", "touch_0.mcap.zstd", "metadata.yaml"])
+def test_a_dictionary_does_not_replace_a_file_of_the_bag_that_it_is_learnt_from(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "touch" / name
+    path.parent.mkdir()
+    path.write_bytes(b"touch")
+    assert main(["train", "--frames", str(path.parent), "-o", str(path)]) == 1
+    assert f"{path}: is read, and would be lost" in capsys.readouterr().err
+    assert path.read_bytes() == b"touch"
+
+
+def test_the_progress_of_a_training_does_not_replace_what_it_learns_from(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "mine.npz.partial"
+    np.savez(tmp_path / "frames.npz", frames=np.full((20, 16, 16), 400, np.uint16))
+    (tmp_path / "frames.npz").rename(path)
+    before = path.read_bytes()
+    assert main(["train", "--frames", str(path), "-o", str(tmp_path / "mine.npz")]) == 1
+    assert f"{path}: is read, and would be lost" in capsys.readouterr().err
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("which", "name"), [("slips", "pressure_profiles/a.dsa"), ("insole", "Experiment_Dataset/a.csv")]
+)
+def test_public_recordings_are_not_replaced_by_what_they_are_converted_to(
+    which: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / name
+    path.parent.mkdir()
+    path.write_bytes(b"public")
+    assert main(["evaluate", "convert", which, str(tmp_path), "-o", str(path)]) == 1
+    assert f"{path}: is read, and would be lost" in capsys.readouterr().err
+    assert path.read_bytes() == b"public"
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        ("edges --recordings", "edge.npy"),
+        ("impacts --recordings", "drop.npy"),
+        ("outlines --recordings", "tennis.npy"),
+        ("outlines --surfaces", "tennis_m64.ply"),
+        ("outlines --surfaces", "tennis_m64.png"),
+        ("ricochet --recordings", "throw_1_m_s_0_deg.npy"),
+        ("spectra --recordings", "motor_10.0_hz.npy"),
+        ("wearables --recordings", "arm_taps.npy"),
+    ],
+)
+def test_results_do_not_replace_a_scene_that_is_written_beside_them(
+    words: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / name
+    assert main(["evaluate", *words.split(), str(tmp_path), "--seeds", "1", "--json", str(path)]) == 1
+    told = capsys.readouterr()
+    assert f"{path}: has the name of a file that the command writes in {tmp_path}; give one that does not" in told.err
+    assert told.out == ""
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     "words",
     ["selftest --sim", "evaluate objects", "evaluate classification", "evaluate slip --frames /no.npz"],

@@ -234,6 +234,18 @@ def test_damaged_curves_are_refused_by_file_and_line(
     assert error in capsys.readouterr().err
 
 
+def test_published_curves_are_not_replaced_by_the_numbers_of_figures(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "curves_index.csv").write_text("curve_id,figure,axes,label\n1,a,0,x\n")
+    path = tmp_path / "curves.csv"
+    path.write_text("curve_id,x,y\n1,0,0\n")
+    words = ["figures", "4D", "--out", str(tmp_path / "out"), "--paper-data", str(tmp_path)]
+    assert main([*words, "--json", str(path)]) == 1
+    assert f"{path}: is read, and would be lost" in capsys.readouterr().err
+    assert path.read_text() == "curve_id,x,y\n1,0,0\n"
+
+
 def test_a_published_curve_without_points_is_refused_by_name(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -21,7 +21,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.scene_frames import frame_rate_hz
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.statistics import distribution_with_max
 from acts_tools.progress import Progress
 
@@ -69,7 +69,7 @@ def numbered_edge(seed: int, number: int) -> tuple[Scene, Edge]:
 
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, about)
+    results = scene_results(arguments, about)
     if arguments.recordings is not None:
         write_recording(arguments.recordings, "edge", numbered_edge(arguments.seed, 0)[0].frames, SCENE_RATE_HZ)
     # What is named twice is one.

@@ -25,7 +25,7 @@ from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.scene_frames import frame_rate_hz
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.statistics import distribution, mean
 from acts_tools.progress import Progress
 
@@ -82,7 +82,7 @@ def drops_of(drops: int, seed: int, touch_ms: float) -> list[Scene]:
 
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("touch_ms", "noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, about)
+    results = scene_results(arguments, about)
     scenes = drops_of(arguments.seeds, arguments.seed, arguments.touch_ms)
     if arguments.recordings is not None:
         write_recording(arguments.recordings, "drop", scenes[0].frames, SCENE_RATE_HZ)

@@ -27,7 +27,7 @@ from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.methods import PAPER_TOUCH_COUNTS, paper_method
 from acts_tools.evaluate.impacts import plays
 from acts_tools.evaluate.options import add_scene_arguments
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.statistics import distribution_with_max, wilson
 from acts_tools.progress import Progress
 
@@ -126,7 +126,7 @@ def _run(arguments: argparse.Namespace) -> int:
     # A speed that is named twice is one: its throws would count twice.
     speeds = list(dict.fromkeys(arguments.speeds))
     about = {name: getattr(arguments, name) for name in ("m", "noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, {"speeds": speeds, **about})
+    results = scene_results(arguments, {"speeds": speeds, **about})
     paper = PaperDirections(arguments.m, arguments.noise_counts)
     ours = plays.Ours(SCHEME, arguments.m, arguments.noise_counts)
     all_paper: list[float | None] = []

@@ -25,9 +25,9 @@ from acts_tools.evaluate.outlines import tracing
 from acts_tools.evaluate.outlines.surface_files import write_surfaces
 from acts_tools.evaluate.outlines.tracing import Traced
 from acts_tools.evaluate.scene_frames import frame_rate_hz
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.statistics import distribution_with_max, mean
-from acts_tools.output_file import make_folder
+from acts_tools.output_file import make_folder, require_apart
 from acts_tools.progress import Progress
 
 _M = (64, 88, 128, 256, 352, 512)
@@ -59,7 +59,8 @@ def add_parser(commands: Any) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, about)
+    require_apart(arguments.json, arguments.surfaces, ".png", ".ply")
+    results = scene_results(arguments, about)
     if arguments.surfaces is not None:
         make_folder(arguments.surfaces, "--surfaces")
     print(_TITLE, flush=True)

@@ -19,6 +19,7 @@ from acts_core.words import counted
 from acts_tools.evaluate.public import insole, weiss
 from acts_tools.output_file import require_writable
 
+_SUFFIXES = (".csv", ".dsa")
 _GRASPS = "python/classification/training_grasp_profiles_thesis"
 
 
@@ -37,7 +38,8 @@ def add_parser(commands: Any) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    require_writable(arguments.output, takes_stream=False)
+    reads = [path for suffix in _SUFFIXES for path in arguments.source.rglob(f"*{suffix}")]
+    require_writable(arguments.output, takes_stream=False, reads=reads)
     recordings, live, rate_hz = _SETS[arguments.which](arguments.source)
     length = np.array([len(frames) for _, frames in recordings])
     # An open file: numpy would append .npz to any other name.

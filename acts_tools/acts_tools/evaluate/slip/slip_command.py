@@ -159,7 +159,7 @@ def _steady(sums: NDArray[np.float32], reach: int) -> NDArray[np.bool_]:
 
 def _run(arguments: argparse.Namespace) -> int:
     results = report.Results(arguments.json, {"frames": str(arguments.frames)}, reads=[arguments.frames])
-    require_picture(arguments.picture, report=arguments.json)
+    require_picture(arguments.picture, report=arguments.json, reads=[arguments.frames])
     config = part_of(SlipConfig, arguments)
     tell_if_large(arguments.frames)
     recorded = load_frames(arguments.frames, labels=True)

@@ -21,7 +21,7 @@ from acts_sim.vibrations import VIBRATION_RATE_HZ, Motor, Vibration
 from acts_tools.evaluate import report
 from acts_tools.evaluate.options import add_m, add_scene_arguments
 from acts_tools.evaluate.scene_frames import frame_rate_hz
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.spectra import motors
 from acts_tools.evaluate.statistics import distribution, distribution_with_max, mean
 from acts_tools.progress import Progress
@@ -54,7 +54,7 @@ def add_parser(commands: Any) -> None:
 
 def _run(arguments: argparse.Namespace) -> int:
     about = {name: getattr(arguments, name) for name in ("noise_counts", "seed", "seeds")}
-    results = report.Results(arguments.json, about)
+    results = scene_results(arguments, about)
     print(_TITLE, flush=True)
     with Progress("spectra", (len(arguments.m) + 4) * arguments.seeds) as progress:
         done = 0

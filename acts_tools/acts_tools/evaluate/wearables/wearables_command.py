@@ -19,7 +19,7 @@ from acts_sim.wearables import SCENES, WORN_RATE_HZ, WornScene, worn_scene
 from acts_tools.arguments import real, simulated_taxels
 from acts_tools.evaluate import report
 from acts_tools.evaluate.options import add_scene_arguments
-from acts_tools.evaluate.scene_recordings import add_recordings_argument, write_recording
+from acts_tools.evaluate.scene_recordings import add_recordings_argument, scene_results, write_recording
 from acts_tools.evaluate.wearables.happened import Tally
 from acts_tools.evaluate.wearables.untouched import watch_untouched
 from acts_tools.evaluate.wearables.watching import SCHEME, Watcher
@@ -81,7 +81,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if not arguments.scene and not arguments.untouched:
         raise SettingsError("--scene and --untouched name nothing; name a scene or a skin, or leave one of them out")
     about = {name: getattr(arguments, name) for name in ("m", "noise_counts", "seed", "seeds", "minutes")}
-    results = report.Results(arguments.json, about)
+    results = scene_results(arguments, about)
     if arguments.scene:
         print(_TITLE, flush=True)
     for name in arguments.scene:
