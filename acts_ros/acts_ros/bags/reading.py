@@ -105,8 +105,9 @@ class Bag:
         RecordingError
             The bag is damaged.
         """
-        if isinstance(self._reader, BagReader) and self._reader.start_time <= self._reader.end_time:
-            return self._reader.start_time, self._reader.end_time
+        # Of rosbags, the end is a nanosecond after the latest message.
+        if isinstance(self._reader, BagReader) and self._reader.start_time < self._reader.end_time:
+            return self._reader.start_time, self._reader.end_time - 1
         begin_ns = end_ns = None
         for _, stamp_ns, _ in self.messages(topics):
             begin_ns = stamp_ns if begin_ns is None else min(begin_ns, stamp_ns)

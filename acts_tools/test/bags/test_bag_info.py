@@ -80,6 +80,20 @@ def test_a_single_message_and_none_have_no_rate(
     ]
 
 
+@pytest.mark.parametrize("is_closed", [True, False])
+def test_messages_of_one_moment_have_no_rate(
+    is_closed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make_bag(tmp_path / "bag", {"/word": STRING}, [1000, 1000, 1000], monkeypatch)
+    if not is_closed:
+        (tmp_path / "bag" / "metadata.yaml").unlink()
+    assert told(tmp_path / "bag", capsys)[-3:] == [
+        "3 messages from 1970-01-01 00:00:01+00:00, 0.0 s long",
+        "topic  type                 messages  a second",
+        "/word  std_msgs/msg/String         3",
+    ]
+
+
 def test_a_topic_of_a_type_that_is_not_installed_is_told_and_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
