@@ -24,7 +24,7 @@ from acts_sim.pressing import OBJECTS, PressingArm, object_named
 from acts_tools.arguments import at_least_one, random_seed, refuse_unused, whole
 from acts_tools.large_files import tell_if_large
 from acts_tools.output_file import require_writable
-from acts_tools.training.frames import digest_of
+from acts_tools.training.frames import digest_of, each_once
 
 _EPILOG = """\
 examples:
@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
     ActsError
         When the frames cannot be read, have no labels, or the file cannot be written.
     """
-    paths: list[Path] = arguments.files or ([] if arguments.frames is None else [arguments.frames])
+    paths = each_once(arguments.files or ([] if arguments.frames is None else [arguments.frames]))
     require_writable(arguments.output, takes_stream=False, reads=paths)
     if paths:
         refuse_unused(arguments, f"with --{'files' if arguments.files else 'frames'}", "presses", "seed")

@@ -43,6 +43,14 @@ def is_bag(path: Path) -> bool:
     return path.is_dir() or path.suffix in (".mcap", ".db3")
 
 
+def each_once(paths: Sequence[Path]) -> list[Path]:
+    """Without those that are given once more: their frames would count twice. A link has a name of its own."""
+    once: dict[Path, Path] = {}
+    for path in paths:
+        once.setdefault(path.parent.resolve() / path.name, path)
+    return list(once.values())
+
+
 def files_of(paths: Sequence[Path]) -> list[Path]:
     """The files that are read of recordings: of a bag's folder those of the bag, not what else is there."""
     files = []
@@ -72,7 +80,7 @@ def recorded_frames(paths: Sequence[Path], topic: str = "") -> Source:
         raise RecordingError(f"--topic {topic}: none of the recordings is a bag; leave it out")
     parts: list[NDArray[np.uint16]] = []
     descriptions = []
-    for path in paths:
+    for path in each_once(paths):
         if is_bag(path):
             from acts_tools.training.bag_frames import bag_frames
 

@@ -238,6 +238,9 @@ def test_a_library_of_files_that_are_named_after_their_objects(tmp_path: Path) -
     assert shown == {0: "cup", 8: "cup", 16: "can"}
     for path in paths:
         assert f"{path.name} (sha256 " in loaded.provenance
+    again = tmp_path / "again.npz"
+    assert make_library("-o", again, "--files", *paths, tmp_path / "." / ".." / tmp_path.name / "can.npz") == 0
+    assert load_object_library(again).provenance == loaded.provenance
     np.savez(paths[2], image=np.full((1, 4, 4), 300, dtype=np.uint16))
     with pytest.raises(RecordingError, match=r"arrays of several sizes .*cup_1.npz 8 x 8.*can.npz 4 x 4"):
         make_library("-o", made, "--files", *paths)

@@ -49,6 +49,9 @@ def test_training_from_frames(tmp_path: Path) -> None:
     assert run("-o", path, *OF_FRAMES, "--frames", frames, "--patch-size", 6) == 0
     dictionary = load_dictionary(path, patch_size=6)
     assert hashlib.sha256(frames.read_bytes()).hexdigest() in dictionary.provenance
+    again = tmp_path / "again.npz"
+    assert run("-o", again, *OF_FRAMES, "--frames", frames, frames, "--patch-size", 6) == 0
+    assert load_dictionary(again, patch_size=6).provenance == dictionary.provenance
 
 
 @pytest.mark.parametrize(
