@@ -8,11 +8,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from acts_core.array import MAX_SIDE
 from acts_core.errors import SettingsError
 from acts_core.names import full_name
 from acts_core.skin import LAYOUTS, TAXELS_RULE
 from acts_core.stop_signals import StopSignals
-from acts_tools.arguments import refuse_unused
+from acts_tools.arguments import checked_later, refuse_unused, whole
 
 _EPILOG = """\
 examples:
@@ -55,13 +56,21 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help=f"broken taxels of a recording or board, in quotes: {TAXELS_RULE} (default: none)",
     )
     parser.add_argument(
-        "--size", type=int, nargs=2, default=[32, 32], metavar=("ROWS", "COLS"), help="size of a board (default: 32 32)"
+        "--size",
+        type=whole(1, MAX_SIDE),
+        nargs=2,
+        default=[32, 32],
+        metavar=("ROWS", "COLS"),
+        help="size of a board (default: 32 32)",
     )
     parser.add_argument(
         "--protocol", default="binary", help="protocol of a board: binary, raster_ascii or your own (default: binary)"
     )
     parser.add_argument(
-        "--baud", type=int, default=115200, help="bits per second of a board; no effect on USB boards (default: 115200)"
+        "--baud",
+        type=checked_later(int, "2400 to 12000000"),
+        default=115200,
+        help="bits per second of a board; no effect on USB boards (default: 115200)",
     )
     parser.add_argument(
         "--control",
@@ -73,7 +82,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--host", default="127.0.0.1", help="address to listen on (default: 127.0.0.1, this machine only)"
     )
-    parser.add_argument("--port", type=int, default=8080, help="port to listen on; 0: any that is free (default: 8080)")
+    parser.add_argument(
+        "--port",
+        type=checked_later(int, "0 to 65535"),
+        default=8080,
+        help="port to listen on; 0: any that is free (default: 8080)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,13 +7,23 @@ effect beside others.
 Words come in; numbers that can be used go out, or an error that says what is allowed.
 """
 
-from acts_tools.arguments.numbers import at_least_one, random_seed, real, seconds, simulated_taxels, taxels, whole
+from acts_tools.arguments.numbers import (
+    at_least_one,
+    checked_later,
+    random_seed,
+    real,
+    seconds,
+    simulated_taxels,
+    taxels,
+    whole,
+)
 from acts_tools.arguments.settings import add_settings, given_settings
 from acts_tools.arguments.unused import refuse_unused
 
 __all__ = [
     "add_settings",
     "at_least_one",
+    "checked_later",
     "given_settings",
     "random_seed",
     "real",

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
+from typing import Any
 
 from acts_core.array import MAX_SIDE, ArrayGeometry
 
@@ -40,6 +41,22 @@ def real(lowest: float, highest: float = math.inf) -> Callable[[str], float]:
         if not lowest <= value <= highest or value == math.inf:
             raise argparse.ArgumentTypeError(f"{word}: allowed is {allowed}")
         return value
+
+    return read
+
+
+def checked_later(kind: type, allowed: str = "") -> Callable[[str], Any]:
+    """A value of type int, float or str, in whatever range: who uses it refuses what is not `allowed`.
+
+    Here only what is no number at all is refused, in the same words.
+    """
+    needed = ", ".join(words for words in ("a whole number" if kind is int else "a number", allowed) if words)
+
+    def read(word: str) -> Any:
+        try:
+            return kind(word)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{word}: allowed is {needed}") from None
 
     return read
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from acts_core.errors import SettingsError
 from acts_core.settings import SettingValue, default_of, describe, from_text, unknown_key_message
+from acts_tools.arguments.numbers import checked_later
 
 
 def add_settings(parser: argparse.ArgumentParser, settings_class: type, *names: str, **defaults: SettingValue) -> None:
@@ -32,7 +33,7 @@ def add_settings(parser: argparse.ArgumentParser, settings_class: type, *names: 
         default = defaults.get(name, default_of(settings_class, name))
         parser.add_argument(
             f"--{name.replace('_', '-')}",
-            type=type(default),
+            type=checked_later(type(default), info.allowed),
             default=default,
             metavar="X",
             help=f"{info.description} (default: {'none' if default == '' else '%(default)s'})",

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acts_core.errors import RecordingError
-from acts_tools.arguments import refuse_unused
+from acts_tools.arguments import checked_later, refuse_unused
 
 FORMATS = ("csv", "npz", "parquet", "lerobot")
 _LAYOUT = "square"
@@ -69,7 +69,7 @@ def add_parser(subparsers: Any) -> None:
     )
     parser.add_argument(
         "--rate",
-        type=float,
+        type=checked_later(float, f"0, or {_RATE_MIN_HZ:g} to {_RATE_MAX_HZ:.0f}"),
         metavar="HZ",
         help="rows a second, each with what was newest then; 0: one a frame "
         f"(default: 0, for lerobot {_LEROBOT_HZ:.0f})",

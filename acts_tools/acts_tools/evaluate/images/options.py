@@ -16,7 +16,7 @@ from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_fram
 from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import add_settings, refuse_unused, taxels, whole
+from acts_tools.arguments import add_settings, checked_later, refuse_unused, taxels, whole
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name, settings_of
@@ -69,9 +69,10 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
         help="set a parameter of a method (docs/reference.md, reconstruction)",
     )
     for own in OWN_SETTINGS:
+        allowed = "above 0 to 1" if own.share else f"{own.minimum} to {own.maximum}"
         parser.add_argument(
             f"--{own.parameter.replace('_', '-')}",
-            type=type(own.parameter_default),
+            type=checked_later(type(own.parameter_default), allowed),
             default=own.parameter_default,
             metavar="X",
             help=f"{own.parameter_description} (default: %(default)s)",
