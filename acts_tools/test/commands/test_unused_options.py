@@ -36,6 +36,14 @@ pytestmark = pytest.mark.slow
         ),
         ("evaluate events --method acts last --dictionary x", "--dictionary x has no effect with --method acts, last"),
         ("evaluate events --method gp --patch-step 2", "--patch-step 2 has no effect with --method gp"),
+        (
+            "evaluate events --scheme random uniform --search-share 0.3",
+            "--search-share 0.3 has no effect with the sampling of random, uniform; leave it out",
+        ),
+        (
+            "evaluate objects --fixed-taxels 4",
+            "--fixed-taxels 4 has no effect with the sampling of adaptive, uniform, random, tracking",
+        ),
         ("train -o {out} --frames x --presses 4", "--presses 4 has no effect with --frames"),
         ("library -o {out} --frames x --seed 4", "--seed 4 has no effect with --frames"),
         ("export x --to csv --task grasp", "--task grasp has no effect with --to csv"),

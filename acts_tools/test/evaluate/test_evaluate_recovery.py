@@ -389,3 +389,10 @@ def test_settings_out_of_range_are_refused(
     assert main(["evaluate", "recovery", "--presses", "1", option, word]) == 1
     assert option.strip("-").replace("-", "_") in capsys.readouterr().err
     assert main(["evaluate", "recovery", "--presses", "1", "--json", str(tmp_path / "no" / "out.json")]) == 1
+
+
+def test_more_fixed_taxels_than_the_skin_has_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["evaluate", "recovery", "--presses", "1", "--scheme", "fixed", "--fixed-taxels"]
+    assert main([*words, "1025"]) == 1
+    assert "fixed_taxels = 1025: allowed is 0 to 1024 of a fixed frame of 32 x 32" in capsys.readouterr().err
+    assert main([*words, "1024"]) == 0

@@ -65,7 +65,7 @@ def press_recordings(items: Sequence[ContactObject], presses: int, seed: int) ->
 def _run(arguments: argparse.Namespace) -> int:
     pairs = [(method, scheme) for method in ("paper", "linear") for scheme in _PER_FRAME]
     pairs.append((arguments.ours, "tracking"))
-    options.require_used(arguments, [method for method, _ in pairs])
+    options.require_used(arguments, [scheme for _, scheme in pairs], [method for method, _ in pairs])
     options.require_frames((scheme, m) for m in arguments.m for _, scheme in pairs)
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
     results = options.results(arguments, objects=arguments.objects, presses=arguments.presses)

@@ -119,6 +119,12 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
         seed=arguments.seed,
         **{own.parameter: getattr(arguments, own.parameter) for own in OWN_SETTINGS},
     )
+    # A board takes them, and measures all that it has.
+    if scheme == "fixed" and arguments.fixed_taxels > rows * cols:
+        raise SettingsError(
+            f"fixed_taxels = {arguments.fixed_taxels}: allowed is 0 to {rows * cols} of a fixed frame of {rows} x "
+            f"{cols} taxels"
+        )
     settings = {name: getattr(arguments, name) for name in describe(Task)}
     return Task(sampling, method, **settings, settings=tuple(arguments.set))
 
@@ -135,18 +141,21 @@ def tasks(arguments: argparse.Namespace, shape: tuple[int, ...] = (32, 32)) -> l
     require_frames([(scheme, m) for scheme in schemes for m in ms], shape)
     made = [task(arguments, scheme, m, method, shape) for scheme in schemes for m in ms for method in methods]
     # After their ranges: what is out of range is told first.
-    require_used(arguments, methods)
+    require_used(arguments, schemes, methods)
     return made
 
 
-def require_used(arguments: argparse.Namespace, methods: Sequence[str]) -> None:
-    """Refuse settings of a method, and a dictionary, that none of the chosen methods uses.
+def require_used(arguments: argparse.Namespace, schemes: Sequence[str], methods: Sequence[str]) -> None:
+    """Refuse settings of a scheme or method, and a dictionary, that none of the chosen ones uses.
 
     Raises
     ------
     SettingsError
         It names the first of them.
     """
+    used = {own for scheme in schemes for own in SCHEMES[scheme].own_settings}
+    why = f"with the sampling of {', '.join(dict.fromkeys(schemes))}"
+    refuse_unused(arguments, why, *(own.parameter for own in OWN_SETTINGS if own not in used))
     names = ", ".join(dict.fromkeys(methods))
     known = {name for method in methods for name in settings_of(method)}
     for name, value in arguments.set:
