@@ -153,5 +153,5 @@ def _call(kind: Any, name: str, request: Any) -> Any:
     from acts_tools.running.node import command_node
 
     with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
-        limits = {"found_s": FOUND_S, "answer_s": ANSWER_S}
+        limits: dict[str, Any] = {"found_s": FOUND_S, "answer_s": ANSWER_S}
         return call(node, executor, kind, name, request, who="driver", error=BoardError, **limits)

@@ -50,6 +50,9 @@ def run(arguments: argparse.Namespace) -> int:
     """
     node_name = full_name(arguments.node.strip("/"), "name of a node", has_names_below=True)
     pairs = [word.partition("=") for word in arguments.parameters]
+    for name, equals, text in pairs:
+        if not name:
+            raise SettingsError(f"'{equals}{text}': needed is NAME to show a parameter, or NAME=VALUE to set it")
     if len({bool(equals) for _, equals, _ in pairs}) > 1:
         raise SettingsError("either names alone, to show them, or all with =VALUE, to set them")
     # Imported here: rclpy takes a second.
@@ -65,7 +68,8 @@ def run(arguments: argparse.Namespace) -> int:
         def ask(kind: Any, service: str, **fields: Any) -> Any:
             name = f"{node_name}/{service}"
             request = kind.Request(**fields)
-            return call(node, executor, kind, name, request, who="node", error=SettingsError, found_s=FOUND_S)
+            options: dict[str, Any] = {"who": "node", "error": SettingsError, "found_s": FOUND_S}
+            return call(node, executor, kind, name, request, **options, node_name=node_name)
 
         names: list[str] = ask(ListParameters, "list_parameters").result.names
         wanted = [name for name, _, _ in pairs] or sorted(

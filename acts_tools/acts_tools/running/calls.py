@@ -36,6 +36,7 @@ def call(
     error: type[ActsError],
     found_s: float = FOUND_S,
     answer_s: float = ANSWER_S,
+    node_name: str = "",
 ) -> Any:
     """What a service answers.
 
@@ -51,6 +52,8 @@ def call(
         What to raise.
     found_s, answer_s : float
         Limits of time [s].
+    node_name : str
+        That with which `name` begins, where a user gives it and not the service.
 
     Raises
     ------
@@ -63,7 +66,8 @@ def call(
     client: Client[Any, Any] = node.create_client(kind, name)
     if not client.wait_for_service(timeout_sec=found_s):
         names = (one for one, _ in node.get_service_names_and_types())
-        hint = did_you_mean(name, names)
+        service = name.removeprefix(node_name) if node_name else ""
+        hint = did_you_mean(node_name or name, (one.removesuffix(service) for one in names if one.endswith(service)))
         raise error(
             f"no {who} offers {name}: is it launched (a first start takes up to a minute), in this namespace and with "
             f"this ROS_DOMAIN_ID{hint or '?'}"

@@ -66,7 +66,8 @@ def plate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
         ("record -d 0.5 -o BAG /contact", "/contact, no publisher was found; did you mean /plate/contact?"),
         ("driver -n plat tare", "with this ROS_DOMAIN_ID; did you mean /plate/driver/tare?"),
         ("call /plate/driver/tar", "lists those there are; did you mean /plate/driver/tare?"),
-        ("param /gains", "with this ROS_DOMAIN_ID; did you mean /plate/gains/list_parameters?"),
+        ("param /gains", "with this ROS_DOMAIN_ID; did you mean /plate/gains?"),
+        ("param /plate/gain", "with this ROS_DOMAIN_ID; did you mean /plate/gains?"),
         ("param /plate/gains stifness", "lists those it has; did you mean stiffness?"),
     ],
 )
@@ -79,6 +80,20 @@ def test_commands_say_it(words: str, told: str, plate: Node, capfd: pytest.Captu
         return told in output.out + output.err
 
     wait_for(says_it, told, DEADLINE_S)
+
+
+def test_a_node_is_not_likened_to_others_for_the_service_that_all_have(
+    plate: Node, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def others_are_found() -> bool:
+        assert main(["param", "/gains"]) == 1
+        return "did you mean" in capfd.readouterr().err
+
+    wait_for(others_are_found, "the node", DEADLINE_S)
+    assert main(["param", "/nosuch"]) == 1
+    told = capfd.readouterr().err
+    assert "no node offers /nosuch/list_parameters" in told
+    assert "did you mean" not in told
 
 
 @pytest.mark.parametrize(

@@ -60,6 +60,8 @@ def test_parameters_are_shown_and_set(node: Node, capsys: pytest.CaptureFixture[
         (["robot=\udcff"], "robot = '\\udcff': needed is text in UTF-8"),
         (["is_on=1"], "is_on = '1': needed is true or false"),
         (["joints=1"], "joints is neither a number, text, nor true or false: set it in a params file"),
+        (["=5"], "'=5': needed is NAME to show a parameter, or NAME=VALUE to set it"),
+        (["kp=1", ""], "'': needed is NAME to show"),
         (["kp=1", "kp=2"], "a parameter is given twice"),
         (["kp=1", "steps"], "either names alone, to show them, or all with =VALUE"),
         (["steps=5", "kp=13"], "13 is unlucky"),
