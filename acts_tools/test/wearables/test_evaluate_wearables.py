@@ -63,6 +63,16 @@ def test_nothing_to_evaluate_is_refused(capsys: pytest.CaptureFixture[str]) -> N
     assert "--scene and --untouched name nothing; name a scene or a skin" in capsys.readouterr().err
 
 
+def test_for_no_minutes_no_untouched_skin_is_watched(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "wearables.json"
+    words = ["evaluate", "wearables", "--untouched", "end_effector", "--minutes", "0"]
+    assert main([*words, "--scene", "helmet_hit", "--seeds", "1", "--json", str(out)]) == 0
+    assert [entry.get("untouched") for entry in json.loads(out.read_text())["results"]] == [None]
+    assert "untouched: end_effector not watched, since --minutes is 0\n" in capsys.readouterr().out
+    assert main([*words, "--scene"]) == 1
+    assert "error: --minutes is 0 and --scene names nothing; name a scene or a skin" in capsys.readouterr().err
+
+
 def test_a_scene_that_was_added_is_evaluated(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(SCENES, "chest_tap", replace(SCENES["arm_tap"], name="chest_tap", layout="chest"))
     with Progress("chest_tap", 1) as progress:

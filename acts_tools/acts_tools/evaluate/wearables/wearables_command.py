@@ -53,7 +53,7 @@ def add_parser(commands: Any) -> None:
         type=real(0.0, 1e6),
         default=10.0,
         metavar="T",
-        help="each skin is left alone (default: %(default)s)",
+        help="each skin is left alone; 0: no skins (default: %(default)s)",
     )
     parser.add_argument("--m", type=simulated_taxels, default=64, help="taxels per frame (default: %(default)s)")
     add_scene_arguments(parser, 25, "of each scene")
@@ -78,8 +78,10 @@ def tally(name: str, seeds: int, m: int, noise_counts: float, seed: int, progres
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    if not arguments.scene and not arguments.untouched:
-        raise SettingsError("--scene and --untouched name nothing; name a scene or a skin, or leave one of them out")
+    untouched = arguments.untouched if arguments.minutes else []
+    if not arguments.scene and not untouched:
+        nothing = "--minutes is 0 and --scene names" if arguments.untouched else "--scene and --untouched name"
+        raise SettingsError(f"{nothing} nothing; name a scene or a skin, or leave one of them out")
     about = {name: getattr(arguments, name) for name in ("m", "noise_counts", "seed", "seeds", "minutes")}
     results = scene_results(arguments, about)
     if arguments.scene:
@@ -94,10 +96,12 @@ def _run(arguments: argparse.Namespace) -> int:
         kind = SCENES[name]
         entry = {"scene": name, "figure": kind.figure, "layout": kind.layout, "scheme": SCHEME, **found.summary()}
         results.add(entry, _line(entry))
-    if arguments.untouched:
+    if untouched:
         print(_UNTOUCHED_TITLE, flush=True)
+    elif arguments.untouched:
+        print(f"untouched: {', '.join(arguments.untouched)} not watched, since --minutes is 0", flush=True)
     seconds = max(round(60 * arguments.minutes), 1)
-    for name in arguments.untouched:
+    for name in untouched:
         # The same skin, whichever others are watched.
         rng = np.random.default_rng([arguments.seed, SKINS.index(name)])
         with Progress(name, seconds) as progress:
