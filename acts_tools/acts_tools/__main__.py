@@ -53,6 +53,10 @@ def run() -> int:
         if came:
             return INTERRUPTED
         raise
+    finally:
+        # The interpreter keeps in mind that an interruption came out of code run from text, as where a dataclass is
+        # made, and would end by SIGINT, whatever the exit code. The next text that is run clears that.
+        exec("")
 
 
 if __name__ == "__main__":

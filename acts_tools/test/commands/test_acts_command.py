@@ -177,6 +177,18 @@ def test_ctrl_c_is_no_error_even_where_a_library_makes_one_of_it(
 
 
 @pytest.mark.parametrize("number", STOP_SIGNALS)
+def test_ctrl_c_while_a_module_makes_code_of_text_ends_a_command_like_any_other(
+    number: signal.Signals, tmp_path: Path
+) -> None:
+    """As a dataclass does while it is defined, so that it meets most who interrupt the start of a command."""
+    (tmp_path / "scipy.py").write_text(f"exec('import signal; signal.raise_signal({int(number)})')\n")
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
+    command = [sys.executable, "-m", "acts_tools", "evaluate", "recovery", "--presses", "1"]
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60.0, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, "", "")
+
+
+@pytest.mark.parametrize("number", STOP_SIGNALS)
 def test_a_signal_leaves_nothing_that_is_half_made(number: signal.Signals, tmp_path: Path) -> None:
     # The reader never comes, so that the command is in the middle of its work for as long as the test takes.
     pipe = tmp_path / "frames.npz"
