@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -15,12 +17,17 @@ from typing import BinaryIO
 
 from acts_core.errors import ActsError
 
+_LEFT_S = 86_400.0
+"""A file that has not been written to for so long is of a process that was killed [s]."""
+
 
 @contextmanager
 def write_whole(
     path: Path, *, error: type[ActsError], hint: str = "", makes_folder: bool = False
 ) -> Iterator[BinaryIO]:
     """Write a file, open while the context is; what was there stays until the new one is on the disk.
+
+    A process that is killed meanwhile leaves a hidden file beside it, which who writes it a day later removes.
 
     Parameters
     ----------
@@ -46,6 +53,7 @@ def write_whole(
             raise error(f"{path}: not a regular file, so nothing is written to it; give another name")
         if makes_folder:
             target.parent.mkdir(parents=True, exist_ok=True)
+        _remove_left(target)
         with fresh.open("wb") as file:
             if target.exists():
                 os.fchmod(file.fileno(), stat.S_IMODE(target.stat().st_mode))
@@ -62,3 +70,18 @@ def write_whole(
             tail = f"; {hint}" if hint else ""
             raise error(f"{path}: cannot be written ({failure.strerror}){tail}") from failure
         raise
+
+
+def _remove_left(target: Path) -> None:
+    """Remove what processes that were killed have left while they wrote a file.
+
+    Its age tells, not whether there is such a process: other machines may write in the same folder.
+    """
+    name = re.compile(rf"\.{re.escape(target.name)}\.\d+\.\d+\.new")
+    # Who may not do that, or comes too late for it, leaves them.
+    with suppress(OSError), os.scandir(target.parent) as entries:
+        for entry in entries:
+            if not name.fullmatch(entry.name) or not entry.is_file(follow_symlinks=False):
+                continue
+            if time.time() - entry.stat(follow_symlinks=False).st_mtime > _LEFT_S:
+                Path(entry.path).unlink()

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import os
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -40,6 +42,18 @@ def test_a_file_that_was_there_keeps_its_permissions(mode: int, tmp_path: Path) 
         file.write(b"second")
     assert path.read_bytes() == b"second"
     assert path.stat().st_mode & 0o777 == mode
+
+
+def test_what_a_killed_process_has_left_is_removed_a_day_later(tmp_path: Path) -> None:
+    left, fresh = tmp_path / ".text.12.34.new", tmp_path / ".text.56.78.new"
+    others = [tmp_path / name for name in (".text2.12.34.new", ".text.12.new", "text.12.34.new", ".other.1.2.new")]
+    for path in (left, fresh, *others):
+        path.touch()
+        if path != fresh:
+            os.utime(path, (time.time() - 90_000, time.time() - 90_000))
+    with write_whole(tmp_path / "text", error=ActsError) as file:
+        file.write(b"whole")
+    assert sorted(tmp_path.iterdir()) == sorted([tmp_path / "text", fresh, *others])
 
 
 def test_two_threads_that_write_a_file_at_once_leave_a_whole_one(tmp_path: Path) -> None:
