@@ -26,7 +26,6 @@ from acts_tools.export.topics import NO_JOINTS, Choice, ChosenTopics, chosen_top
 from acts_tools.export.tracks import CONTACT_COLUMNS, Joints, Track, Values, contact_track, contacts_track, joint_track
 
 _REGIONS = "acts_msgs/msg/RegionContacts"
-_BACKWARD = "left out, not newer than one before: was a clock set?"
 _WITHOUT_NUMBERS = "left out, with values that are no numbers"
 
 # Rows are repeated for at most this time, because a bag whose clock was set would fill the disk [s].
@@ -83,6 +82,10 @@ class Recording:
     """Whether something is recovered, so that the layout makes a difference."""
     hint: str = ""
     """For the user: what may be meant otherwise; empty where there is nothing."""
+    topic: str = ""
+    """Of the frames."""
+    _ahead_ns: int = 0
+    _newest_ns: int = 0
     _notes: tuple[str, ...] = ()
     _refused: Refused = field(default_factory=Refused)
     _frames: Iterator[Seen] = field(default_factory=lambda: iter(()))
@@ -97,7 +100,7 @@ class Recording:
             if self.early
             else ""
         )
-        backward = f"{counted(self.backward, 'frame')} {_BACKWARD}" if self.backward else ""
+        backward = _backward(counted(self.backward, "frame"), self._ahead_ns, self.topic) if self.backward else ""
         refused = (
             f"{counted(self._refused.count, 'frame')} left out, of which the first is {self._refused.first}"
             if self._refused.count
@@ -120,7 +123,7 @@ class Recording:
             yield row
             made += 1
         if not made:
-            raise RecordingError(f"'{self.name}' has no row of {self.skin or '/'}: {self._without_rows()}")
+            raise RecordingError(f"'{self.name}' has no row of {self.skin or '/'}: {self._without_rows(begin_ns)}")
 
     def _one_a_frame(self, begin_ns: int) -> Iterator[Row]:
         """A row for each frame since all topics have come once, at `begin_ns`."""
@@ -156,23 +159,23 @@ class Recording:
             yield self._row(due_ns, first_ns, before)
             made += 1
 
-    def _without_rows(self) -> str:
-        """Why there is no row."""
+    def _without_rows(self, begin_ns: int) -> str:
+        """Why there is no row, though all topics have come once at `begin_ns`."""
         if self.early:
             return (
-                f"all {self.early} frames are from before the first contact, contacts or joint state in it; joint "
-                "states can be left out by --joints none"
+                f"all {self.early} frames are from before the first contact, contacts or joint state in it, the last "
+                f"{(begin_ns - self._newest_ns) * 1e-9:.3f} s before; joint states can be left out by --joints none"
             )
         return f"its {self.backward} frames have no stamp" if self.backward else "its topic has no messages"
 
     def _ascending(self) -> Iterator[Seen]:
-        last_ns = 0
         for seen in self._frames:
-            if seen.stamp_ns > last_ns:
-                last_ns = seen.stamp_ns
+            if seen.stamp_ns > self._newest_ns:
+                self._newest_ns = seen.stamp_ns
                 yield seen
             else:
                 self.backward += 1
+                self._ahead_ns = max(self._ahead_ns, self._newest_ns - seen.stamp_ns)
 
     def _due_ns(self, first_ns: int, number: int) -> int:
         return first_ns + round(number * NS_PER_S / self.rate_hz)
@@ -230,6 +233,7 @@ def open_recording(path: Path, choice: Choice) -> Iterator[Recording]:
             name=str(path),
             skin=topics.skin,
             rate_hz=choice.rate_hz,
+            topic=topics.images or topics.samples,
             joint_columns=joints.columns,
             uses_layout=found.uses_layout,
             hint=_layout_hint(bag, path, topics.skin, choice.layout) if found.uses_layout else "",
@@ -296,8 +300,19 @@ def _contacts_of(bag: Any, path: Path, topics: ChosenTopics, choice: Choice, ref
 
 def _left_out(track: Track[Values], topic: str) -> list[str]:
     """Which messages of a topic are left out, in words."""
-    whys = {_BACKWARD: track.backward, _WITHOUT_NUMBERS: track.without_numbers}
-    return [f"{counted(count, 'message')} of {topic} {why}" for why, count in whys.items() if count]
+    words = []
+    if track.backward:
+        words.append(_backward(f"{counted(track.backward, 'message')} of {topic}", track.ahead_ns))
+    if track.without_numbers:
+        words.append(f"{counted(track.without_numbers, 'message')} of {topic} {_WITHOUT_NUMBERS}")
+    return words
+
+
+def _backward(which: str, ahead_ns: int, topic: str = "") -> str:
+    """That some are left out because one before is newer; where it is much newer, by how much, which tells why."""
+    words = f"{'of ' + topic + ', ' if topic else ''}up to {ahead_ns // NS_PER_S} s ahead"
+    far = f" ({words})" if ahead_ns >= NS_PER_S else ""
+    return f"{which} left out, not newer than one before{far}: was a clock set?"
 
 
 def _other_taxels(contact: Track[Values], topic: str, name: str) -> str:

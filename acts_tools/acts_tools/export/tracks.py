@@ -51,6 +51,8 @@ class Track(Generic[_T]):
         Value at each stamp.
     backward : int
         Number of messages left out: not newer than one before.
+    ahead_ns : int
+        How far the one before was ahead of those, at most [ns].
     without_numbers : int
         Number of messages left out: with a value that is no number.
     """
@@ -58,6 +60,7 @@ class Track(Generic[_T]):
     stamps_ns: list[int] = field(default_factory=list)
     values: list[_T] = field(default_factory=list)
     backward: int = 0
+    ahead_ns: int = 0
     without_numbers: int = 0
 
     def add(self, stamp_ns: int, value: _T) -> None:
@@ -66,7 +69,12 @@ class Track(Generic[_T]):
             self.stamps_ns.append(stamp_ns)
             self.values.append(value)
         else:
-            self.backward += 1
+            self.leave_out(self.stamps_ns[-1] - stamp_ns)
+
+    def leave_out(self, ahead_ns: int) -> None:
+        """Count a message that is not newer than one before, which is so far ahead [ns]."""
+        self.backward += 1
+        self.ahead_ns = max(self.ahead_ns, ahead_ns)
 
     def at(self, stamp_ns: int) -> tuple[int, _T]:
         """Stamp and value of the newest at or before a time, which must exist."""
@@ -162,8 +170,9 @@ def joint_track(bag: Any, path: Path, topic: str, *, numbers_only: bool) -> Join
     newest_ns: dict[str, int] = {}
     track: Track[Values] = Track()
     for stamp_ns, names, values in told:
-        if any(stamp_ns <= newest_ns.get(name, 0) for name in names):
-            track.backward += 1
+        before_ns = max((newest_ns.get(name, 0) for name in names), default=0)
+        if names and stamp_ns <= before_ns:
+            track.leave_out(before_ns - stamp_ns)
             continue
         newest.update(zip(names, values.tolist(), strict=True))
         newest_ns.update(dict.fromkeys(names, stamp_ns))

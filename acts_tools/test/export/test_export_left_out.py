@@ -173,3 +173,34 @@ def test_a_bag_in_which_no_frame_fits_is_refused(tmp_path: Path) -> None:
     path = write_bag(tmp_path / "b", ("/plate/samples", beyond))
     with pytest.raises(RecordingError, match=r"message 0 of /plate/samples in .*2000"):
         rows_of(path)
+
+
+@pytest.mark.parametrize("topic", sorted(MAKE))
+def test_a_stamp_far_ahead_is_told_with_how_far_and_of_what(topic: str, tmp_path: Path) -> None:
+    year_ms = 1000 * 365 * 86_400
+    path = write_bag(
+        tmp_path / "b",
+        *((f"/plate/{topic}", MAKE[topic](t, pressed(0))) for t in (10, 20, year_ms, 30, 40)),
+        *(("/plate/contact", contact(t, 1.0)) for t in (10, year_ms, 30)),
+        *(("/joint_states", joints(t, knee=0.5)) for t in (10, year_ms, 20, 30, 40)),
+    )
+    with open_recording(path, Choice()) as recording:
+        assert len(list(recording.rows())) == 3
+        assert recording.notes()[:3] == [
+            f"{which} left out, not newer than one before ({of}up to 31535999 s ahead): was a clock set?"
+            for which, of in (
+                ("2 frames", f"of /plate/{topic}, "),
+                ("1 message of /plate/contact", ""),
+                ("3 messages of /joint_states", ""),
+            )
+        ]
+
+
+def test_frames_long_before_all_else_are_refused_with_how_long(tmp_path: Path) -> None:
+    path = write_bag(
+        tmp_path / "b",
+        *(("/plate/image_raw", image(t, pressed(0))) for t in (10, 20)),
+        ("/plate/contact", contact(90_020, 1.0)),
+    )
+    with pytest.raises(RecordingError, match=r"all 2 frames are from before the first .*, the last 90\.000 s before;"):
+        rows_of(path)
