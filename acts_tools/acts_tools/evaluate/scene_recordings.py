@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from acts_core.errors import RecordingError
 from acts_core.files import write_whole
 from acts_tools.evaluate import report
-from acts_tools.output_file import require_apart
+from acts_tools.output_file import make_folder, require_apart
 from acts_tools.progress import tell
 
 _SHORTEST_S = 1.0
@@ -45,10 +45,13 @@ def scene_results(arguments: argparse.Namespace, about: dict[str, Any]) -> repor
     Raises
     ------
     RecordingError
-        When its file cannot be written, or has the name of a recording.
+        When its file cannot be written, or has the name of a recording, or there can be no folder of these.
     """
     require_apart(arguments.json, arguments.recordings, _SUFFIX)
-    return report.Results(arguments.json, about)
+    results = report.Results(arguments.json, about)
+    if arguments.recordings is not None:
+        make_folder(arguments.recordings, "--recordings")
+    return results
 
 
 def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz: float) -> None:

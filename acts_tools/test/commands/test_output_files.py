@@ -125,10 +125,11 @@ def test_a_link_to_a_file_that_is_not_there_yet_stays(tmp_path: Path) -> None:
     assert json.loads(report.read_text())["results"]
 
 
-def test_a_file_is_no_folder_to_write_into(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("words", ["outlines --surfaces", "spectra --recordings", "wearables --recordings"])
+def test_a_file_is_no_folder_to_write_into(words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "results"
     file.touch()
-    assert main(["evaluate", "outlines", "--surfaces", str(file)]) == 1
+    assert main(["evaluate", *words.split(), str(file)]) == 1
     said = capsys.readouterr()
     assert f"{file}: no files can be written there (File exists); needed is the name of a folder" in said.err
     assert said.out == ""
