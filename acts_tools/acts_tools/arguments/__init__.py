@@ -17,7 +17,7 @@ from acts_tools.arguments.numbers import (
     taxels,
     whole,
 )
-from acts_tools.arguments.settings import add_settings, given_settings
+from acts_tools.arguments.settings import add_settings, given_settings, name_and_value
 from acts_tools.arguments.unused import refuse_unused
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "at_least_one",
     "checked_later",
     "given_settings",
+    "name_and_value",
     "random_seed",
     "real",
     "refuse_unused",

@@ -40,6 +40,22 @@ def add_settings(parser: argparse.ArgumentParser, settings_class: type, *names: 
         )
 
 
+def name_and_value(word: str, known: Sequence[str], where: str) -> tuple[str, str]:
+    """The parts of a word ``NAME=VALUE``, whose name is one of those that are `known`.
+
+    Raises
+    ------
+    SettingsError
+        It is another one, or a part is missing; `where` says what the settings are of.
+    """
+    name, equals, text = word.partition("=")
+    if name and name not in known:
+        raise SettingsError(unknown_key_message(name, list(known), where))
+    if not (name and equals):
+        raise SettingsError(f"'{word}': needed is NAME=VALUE")
+    return name, text
+
+
 def given_settings(settings_class: type, words: Sequence[str], where: str) -> dict[str, Any]:
     """Read settings of a class; the last of a name counts.
 
@@ -55,12 +71,10 @@ def given_settings(settings_class: type, words: Sequence[str], where: str) -> di
     Raises
     ------
     SettingsError
-        For a name that there is not, or a value out of range.
+        For a word that is none of these, a name that there is not, or a value out of range.
     """
     given: dict[str, Any] = {}
     for word in words:
-        name, _, text = word.partition("=")
-        if name not in describe(settings_class):
-            raise SettingsError(unknown_key_message(name, list(describe(settings_class)), where))
+        name, text = name_and_value(word, list(describe(settings_class)), where)
         given[name] = from_text(settings_class, name, text)
     return given

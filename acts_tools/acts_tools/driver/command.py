@@ -49,7 +49,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("-n", "--namespace", default="plate", help="namespace of the skin (default: plate)")
     parser.add_argument("what", choices=(*_SERVICES, "set", *_TRANSITIONS))
-    parser.add_argument("values", nargs="*", metavar="NAME=VALUE", help="parameters, with set")
+    parser.add_argument("values", nargs="*", default=[], metavar="NAME=VALUE", help="parameters, with set")
 
 
 def run(arguments: argparse.Namespace) -> int:

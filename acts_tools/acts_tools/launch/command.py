@@ -46,7 +46,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("package", metavar="PACKAGE", help="package of the launch file, or path of a launch file")
-    parser.add_argument("words", nargs="*", metavar="FILE | NAME:=VALUE", help="launch file, then its arguments")
+    parser.add_argument(
+        "words", nargs="*", default=[], metavar="FILE | NAME:=VALUE", help="launch file, then its arguments"
+    )
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
         "-s", "--show-args", "--show-arguments", action="store_true", help="list the arguments of the launch file"

@@ -37,7 +37,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("node", metavar="NODE", help="its full name, such as /plate/reconstruction")
-    parser.add_argument("parameters", nargs="*", metavar="NAME[=VALUE]", help="names, or names with new values")
+    parser.add_argument(
+        "parameters", nargs="*", default=[], metavar="NAME[=VALUE]", help="names, or names with new values"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

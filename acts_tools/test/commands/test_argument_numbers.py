@@ -125,6 +125,35 @@ def test_an_option_is_not_taken_for_another_that_begins_alike(
     assert "unrecognized arguments: --seed 3" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        ("evaluate hand --scenario slip --set", "grip_force_n"),
+        ("evaluate recovery --presses 1 --set", "sparsity_ratio"),
+        ("evaluate slip-sampled --set", "slip_hold_s"),
+    ],
+)
+def test_settings_without_name_or_value_are_refused(words: str, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for word in (name, "=5"):
+        try:
+            code = main([*words.split(), word])
+        except SystemExit as end:
+            code = int(str(end.code))
+        assert code in (1, 2)
+        assert f"'{word}': needed is NAME=VALUE\n" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "lacking"), [("param", "NODE"), ("launch", "PACKAGE"), ("driver", "what"), ("pub", "TOPIC, TYPE")]
+)
+def test_of_words_that_are_lacking_only_those_are_told_that_are_needed(
+    name: str, lacking: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main([name])
+    assert f"the following arguments are required: {lacking}\n" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("word", ["", "x", "1.5", "0", "65", "-1", "nan"])
 def test_whole_numbers_have_a_range(word: str) -> None:
     with pytest.raises(argparse.ArgumentTypeError, match="allowed is a whole number from 1 to 64"):

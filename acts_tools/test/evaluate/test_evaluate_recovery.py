@@ -378,6 +378,7 @@ def test_each_m_that_a_scheme_cannot_have_is_refused_before_any_work(
     [
         ("--rate-hz", "nan"),
         ("--touch-counts", "2000"),
+        ("--touch-counts", "-5"),
         ("--m", "2000"),
         ("--noise-counts", "-1"),
         ("--patch-step", "0"),

@@ -13,10 +13,10 @@ from typing import Any
 from acts_core.array import COUNT_MAX
 from acts_core.errors import SettingsError
 from acts_core.sampling import OWN_SETTINGS, SCHEMES, SamplingConfig, check_frame
-from acts_core.settings import SettingValue, describe, from_text, unknown_key_message
+from acts_core.settings import SettingValue, checked, default_of, describe, from_text
 from acts_recon.methods import METHODS
 from acts_recon.sparse import Dictionary, shipped_dictionary_path
-from acts_tools.arguments import add_settings, checked_later, refuse_unused, taxels, whole
+from acts_tools.arguments import add_settings, checked_later, name_and_value, refuse_unused, taxels, whole
 from acts_tools.evaluate import report
 from acts_tools.evaluate.estimators.dictionaries import dictionary_named
 from acts_tools.evaluate.estimators.methods import ALIASES, method_names, report_name, settings_of
@@ -82,12 +82,10 @@ def add_common_arguments(parser: argparse.ArgumentParser, **defaults: float) -> 
 
 def _method_setting(word: str) -> tuple[str, SettingValue]:
     """``NAME=VALUE`` of a setting of a registered method, for argparse."""
-    name, _, text = word.partition("=")
     configs = {key: kind.Config for kind in METHODS.values() for key in describe(kind.Config)}
     known = [key for key in configs if key not in _OPTIONS_OF_THEIR_OWN]
-    if name not in known:
-        raise argparse.ArgumentTypeError(unknown_key_message(name, known, "settings of methods"))
     try:
+        name, text = name_and_value(word, known, "settings of methods")
         return name, from_text(configs[name], name, text)
     except SettingsError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
@@ -106,6 +104,10 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
     SettingsError
         When something is out of range.
     """
+    settings = {name: getattr(arguments, name) for name in describe(Task)}
+    # First, because something else is made of one of them.
+    for name, info in describe(Task).items():
+        checked(name, settings[name], default_of(Task, name), info)
     threshold = arguments.search_counts
     if threshold is None:
         threshold = min(FOLLOW_COUNTS, arguments.touch_counts) if scheme == "tracking" else arguments.touch_counts
@@ -125,7 +127,6 @@ def task(arguments: argparse.Namespace, scheme: str, m: int, method: str, shape:
             f"fixed_taxels = {arguments.fixed_taxels}: allowed is 0 to {rows * cols} of a fixed frame of {rows} x "
             f"{cols} taxels"
         )
-    settings = {name: getattr(arguments, name) for name in describe(Task)}
     return Task(sampling, method, **settings, settings=tuple(arguments.set))
 
 
