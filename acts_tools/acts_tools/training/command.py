@@ -159,7 +159,8 @@ def _source(arguments: argparse.Namespace) -> tuple[Source, dict[str, Any]]:
             words = without_contact(largest, arguments.touch_counts)
             raise RecordingError(f"{files}: {words}, or a lower --touch-counts")
         return recorded, {}
-    objects = [object_named(name) for name in arguments.objects or OBJECTS]
+    # An object that is named twice is one object.
+    objects = [object_named(name) for name in dict.fromkeys(arguments.objects or OBJECTS)]
     print(f"pressing {counted(len(objects), 'object')} into the contact model", flush=True)
     with Progress("press", arguments.presses, keep=True, stream=sys.stdout) as bar:
         frames = model_frames(objects, arguments.presses, arguments.seed, bar.show)

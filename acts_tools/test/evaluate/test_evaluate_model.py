@@ -54,6 +54,17 @@ def test_objects_give_curves_and_a_picture(tmp_path: Path, capsys: pytest.Captur
     assert main(["evaluate", "objects", *words, "--picture", str(tmp_path / "no" / "a.png")]) == 1
 
 
+def test_an_object_that_is_named_twice_is_pressed_once(tmp_path: Path) -> None:
+    scored = []
+    for names in (["x"], ["x", "x"]):
+        out = tmp_path / "objects.json"
+        words = ["--m", "256", "--ours", "last", "--json", str(out), "--objects", *names]
+        assert main(["evaluate", "objects", *words]) == 0
+        report = json.loads(out.read_text())
+        scored.append((report["objects"], [(one["frames"], one["support_accuracy"]) for one in report["results"]]))
+    assert scored[0] == scored[1]
+
+
 # Errors after the onset: with trust in samples beside they were 2.7, 2.0 and 1.2 times those of last values.
 @pytest.mark.parametrize(
     ("event", "seed", "scheme", "m"),

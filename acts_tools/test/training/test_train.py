@@ -36,7 +36,7 @@ def test_training_from_the_contact_model(tmp_path: Path, capsys: pytest.CaptureF
     assert "60 presses of 2 objects" in dictionary.provenance
     assert dictionary.sha256 in output
     again = tmp_path / "again.npz"
-    run("-o", again, *SMALL, "--seed", 3, "--objects", "eraser", "x")
+    run("-o", again, *SMALL, "--seed", 3, "--objects", "eraser", "x", "x")
     assert load_dictionary(again).sha256 == dictionary.sha256
 
 

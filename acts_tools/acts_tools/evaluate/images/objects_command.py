@@ -68,13 +68,15 @@ def _run(arguments: argparse.Namespace) -> int:
     options.require_used(arguments, [scheme for _, scheme in pairs], [method for method, _ in pairs])
     options.require_frames((scheme, m) for m in arguments.m for _, scheme in pairs)
     tasks = [options.task(arguments, scheme, m, method) for m in arguments.m for method, scheme in pairs]
-    results = options.results(arguments, objects=arguments.objects, presses=arguments.presses)
+    # An object that is named twice is one: its presses would count twice.
+    names = list(dict.fromkeys(arguments.objects))
+    results = options.results(arguments, objects=names, presses=arguments.presses)
     require_picture(arguments.picture, report=arguments.json)
     dictionary = options.dictionary(arguments)
-    items = [object_named(name) for name in arguments.objects]
+    items = [object_named(name) for name in names]
     recordings = press_recordings(items, arguments.presses, arguments.seed)
     evaluate_all(recordings, tasks, dictionary, results)
-    require_scored(results.entries, ", ".join(arguments.objects), tasks[0].touch_counts)
+    require_scored(results.entries, ", ".join(names), tasks[0].touch_counts)
     curves = {
         f"{method}, {scheme}": [
             r["support_accuracy"] for r in results.entries if (r["method"], r["scheme"]) == (method, scheme)
