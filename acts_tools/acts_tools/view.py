@@ -92,19 +92,19 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show until told to stop, and return the exit code."""
-    if not arguments.board:
+    if arguments.board is None:
         refuse_unused(arguments, "without --board", "size", "protocol", "baud")
     if arguments.bag or arguments.npz:
         refuse_unused(arguments, "on a recording", "control")
-    elif not arguments.board:
+    elif arguments.board is None:
         refuse_unused(arguments, "without --bag, --npz or --board: nodes tell theirs", "layout", "dead_taxels")
-    if arguments.board and len(arguments.skins) > 1:
+    if arguments.board is not None and len(arguments.skins) > 1:
         raise SettingsError(f"a board is one skin; {', '.join(arguments.skins)} are {len(arguments.skins)}")
     signals = StopSignals()
-    if arguments.bag or arguments.npz or arguments.board:
+    if arguments.bag or arguments.npz or arguments.board is not None:
         return _show_local(arguments, signals)
     for name in arguments.skins:
-        if Path(name).exists():
+        if name and Path(name).exists():
             print(f"[view] {name} is taken for a namespace; the recording of that name: --bag {name}", flush=True)
     # Imported here, because it is slow to import and other commands do not need it. Ctrl-C meanwhile is not lost in a
     # module written in C.
@@ -129,7 +129,7 @@ def _show_local(arguments: argparse.Namespace, signals: StopSignals) -> int:
     settings = ViewSettings(host=arguments.host, port=arguments.port)
     source: LocalSource
     shown = {"dead_taxels": arguments.dead_taxels, "with_outlines": arguments.outlines}
-    if arguments.board:
+    if arguments.board is not None:
         rows, cols = arguments.size
         driver = DriverSettings(
             port=arguments.board, baud=arguments.baud, protocol=arguments.protocol, rows=rows, cols=cols

@@ -224,6 +224,14 @@ def test_a_port_that_cannot_be_is_refused_without_a_graph_too(source: str, tmp_p
     assert output.count("\n") == 1
 
 
+def test_a_port_without_a_name_is_refused() -> None:
+    """As of a variable of a shell that is not set: skins of the graph are not what was asked for."""
+    with start("--board", "", "--port", "0") as process:
+        output, _ = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == 1
+    assert output.startswith("error: port = '': allowed are a path such as /dev/ttyACM0, auto, or serial:"), output
+
+
 def test_a_board_gets_no_name_that_its_topics_could_not_have() -> None:
     with start("--board", "nowhere", "a b", "--port", "0") as process:
         output, _ = process.communicate(timeout=DEADLINE_S)
