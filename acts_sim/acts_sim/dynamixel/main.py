@@ -24,7 +24,7 @@ from acts_sim.dynamixel.faults import Faults
 from acts_sim.dynamixel.joints import FreeJoints
 from acts_sim.dynamixel.motor import Motor
 from acts_sim.dynamixel.port import BusPort
-from acts_sim.shared import FileClaim, add_settings, require_within, settings_from
+from acts_sim.shared import FileClaim, add_settings, number, require_within, settings_from, whole_number
 
 _STEP_S = 0.002
 
@@ -35,12 +35,18 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         prog="dynamixel_bus", description="Simulated Dynamixel motors, Protocol 2.0, behind a pseudo-terminal."
     )
     parser.add_argument("--link", type=Path, help="symbolic link to the port")
-    parser.add_argument("--motors", type=int, default=16, help="number of motors, with IDs from 0 on (1 to 100)")
-    parser.add_argument("--model", choices=sorted(MODELS), default="xc330", help="kind of motor")
-    parser.add_argument("--return-delay", type=int, default=250, help="initial return delay time [2 us] (0 to 254)")
-    parser.add_argument("--baud", type=int, default=4_000_000, help="simulated baud rate; 0: packets take no time")
     parser.add_argument(
-        "--range-rad", type=float, default=math.pi, help="range of each joint to both sides of pi [rad]"
+        "--motors", type=whole_number, default=16, help="number of motors, with IDs from 0 on (1 to 100)"
+    )
+    parser.add_argument("--model", choices=sorted(MODELS), default="xc330", help="kind of motor")
+    parser.add_argument(
+        "--return-delay", type=whole_number, default=250, help="initial return delay time [2 us] (0 to 254)"
+    )
+    parser.add_argument(
+        "--baud", type=whole_number, default=4_000_000, help="simulated baud rate; 0: packets take no time"
+    )
+    parser.add_argument(
+        "--range-rad", type=number, default=math.pi, help="range of each joint to both sides of pi [rad]"
     )
     parser.add_argument("--control", type=Path, help="Unix socket for faults, one per line: lose 3, unplug ...")
     add_settings(parser, RealtimeConfig)

@@ -9,7 +9,7 @@ are 512 ms at the 500 Hz of the simulated worlds.
 
 from acts_sim.shared.compiling import COMPILING, telling_of_compiling
 from acts_sim.shared.lines import LineSession
-from acts_sim.shared.options import add_settings, require_within, settings_from
+from acts_sim.shared.options import add_settings, number, require_within, settings_from, whole_number
 from acts_sim.shared.run_folder import FileClaim, default_run_dir
 from acts_sim.shared.timed_ring import JOINT_RING_WIDTH, TimedRingReader, TimedRingWriter
 
@@ -22,7 +22,9 @@ __all__ = [
     "TimedRingWriter",
     "add_settings",
     "default_run_dir",
+    "number",
     "require_within",
     "settings_from",
     "telling_of_compiling",
+    "whole_number",
 ]

@@ -44,6 +44,22 @@ def settings_from(options: argparse.Namespace, settings_class: type[T]) -> T:
     )
 
 
+def whole_number(word: str) -> int:
+    """For argparse; `require_within` checks the range."""
+    try:
+        return int(word)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{word}: allowed is a whole number") from None
+
+
+def number(word: str) -> float:
+    """For argparse; `require_within` checks the range."""
+    try:
+        return float(word)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{word}: allowed is a number") from None
+
+
 def require_within(parser: argparse.ArgumentParser, options: argparse.Namespace, **ranges: tuple[float, float]) -> None:
     """End the program with what is allowed where an option is out of its range.
 

@@ -27,6 +27,7 @@ from acts_sim.shared import (
     TimedRingWriter,
     add_settings,
     settings_from,
+    whole_number,
 )
 from acts_sim.ur import Controller, UrControllerConfig
 from acts_sim.ur.ports import Port, RtdePort, ScriptSession, Server, dashboard, hooks
@@ -69,7 +70,10 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on; for a second robot 127.0.0.2 ...")
     parser.add_argument("--joint-ring", type=Path, help="file of the shared ring with q(6), qd(6) of every cycle")
     parser.add_argument(
-        "--hook-port", type=int, default=0, help="port of the test hooks; 0: none. Lines: protective_stop, state ..."
+        "--hook-port",
+        type=whole_number,
+        default=0,
+        help="port of the test hooks; 0: none. Lines: protective_stop, state ...",
     )
     add_settings(parser, ControllerSettings)
     options = parser.parse_args(own_words(arguments))

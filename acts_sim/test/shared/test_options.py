@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import pytest
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting, validate
-from acts_sim.shared import add_settings, require_within, settings_from
+from acts_sim.shared import add_settings, number, require_within, settings_from, whole_number
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,18 @@ def test_help_says_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
     assert "--steps VALUE steps (1 to 9); 3" in told
     assert "whether 100 % are on; True" in told
     assert "--cores VALUE cores --q-rad" in told
+
+
+@pytest.mark.parametrize(("kind", "allowed"), [(whole_number, "a whole number"), (number, "a number")])
+def test_a_word_that_is_no_number_is_refused_with_what_is_allowed(
+    kind: Callable[[str], float], allowed: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parser = argparse.ArgumentParser(prog="simulated")
+    parser.add_argument("--motors", type=kind)
+    assert parser.parse_args(["--motors", "16"]).motors == 16
+    with pytest.raises(SystemExit):
+        parser.parse_args(["--motors", "2x"])
+    assert f"simulated: error: argument --motors: 2x: allowed is {allowed}\n" in capsys.readouterr().err
 
 
 def test_an_option_out_of_its_range_is_refused_with_what_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:

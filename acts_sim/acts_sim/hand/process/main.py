@@ -26,9 +26,11 @@ from acts_sim.shared import (
     TimedRingWriter,
     add_settings,
     default_run_dir,
+    number,
     require_within,
     settings_from,
     telling_of_compiling,
+    whole_number,
 )
 
 TRUTH_SLOTS = 8192
@@ -47,8 +49,10 @@ def parse(arguments: Sequence[str]) -> tuple[argparse.Namespace, HandWorldConfig
     parser.add_argument("--field-ring", type=Path, help=f"shared file with the skin's counts; field.ring {folder}")
     parser.add_argument("--truth-ring", type=Path, help=f"shared file with the true state; truth.ring {folder}")
     parser.add_argument("--control", type=Path, help=f"Unix socket for commands; hand.control {folder}")
-    parser.add_argument("--baud", type=int, default=4_000_000, help="simulated baud rate; 0: packets take no time")
-    parser.add_argument("--lead-ms", type=float, default=4.0, help="how far the world is ahead of the clock (2 to 20)")
+    parser.add_argument(
+        "--baud", type=whole_number, default=4_000_000, help="simulated baud rate; 0: packets take no time"
+    )
+    parser.add_argument("--lead-ms", type=number, default=4.0, help="how far the world is ahead of the clock (2 to 20)")
     add_settings(parser, RealtimeConfig)
     add_settings(parser.add_argument_group("the world"), HandWorldConfig)
     options = parser.parse_args(own_words(arguments))
