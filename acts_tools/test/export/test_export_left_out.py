@@ -177,17 +177,17 @@ def test_a_bag_in_which_no_frame_fits_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("topic", sorted(MAKE))
 def test_a_stamp_far_ahead_is_told_with_how_far_and_of_what(topic: str, tmp_path: Path) -> None:
-    year_ms = 1000 * 365 * 86_400
+    far_ms = 1000 * 40 * 86_400
     path = write_bag(
         tmp_path / "b",
-        *((f"/plate/{topic}", MAKE[topic](t, pressed(0))) for t in (10, 20, year_ms, 30, 40)),
-        *(("/plate/contact", contact(t, 1.0)) for t in (10, year_ms, 30)),
-        *(("/joint_states", joints(t, knee=0.5)) for t in (10, year_ms, 20, 30, 40)),
+        *((f"/plate/{topic}", MAKE[topic](t, pressed(0))) for t in (10, 20, far_ms, 30, 40)),
+        *(("/plate/contact", contact(t, 1.0)) for t in (10, far_ms, 30)),
+        *(("/joint_states", joints(t, knee=0.5)) for t in (10, far_ms, 20, 30, 40)),
     )
     with open_recording(path, Choice()) as recording:
         assert len(list(recording.rows())) == 3
         assert recording.notes()[:3] == [
-            f"{which} left out, not newer than one before ({of}up to 31535999 s ahead): was a clock set?"
+            f"{which} left out, not newer than one before ({of}up to 3455999 s ahead): was a clock set?"
             for which, of in (
                 ("2 frames", f"of /plate/{topic}, "),
                 ("1 message of /plate/contact", ""),
