@@ -12,7 +12,7 @@ const int COLS = 16;
 const int FIRST_ROW_PIN = 22;
 const int FIRST_ADDRESS_PIN = 4;
 const int ADDRESS_BITS = 4;
-const unsigned long BAUD = 1000000;  // 16 x 16 values are up to 1300 bytes a frame: 9 frames/s at 115200 baud
+const unsigned long BAUD = 1000000;  // 16 x 16 values are up to 1300 bytes a frame: 7 frames/s at 115200 baud
 
 int counts[ROWS][COLS];
 
