@@ -25,6 +25,7 @@ from rclpy.task import Future
 from acts_core.errors import REFUSED_EXIT_CODE, ActsError, SettingsError, exit_code
 from acts_core.stop_signals import StopSignals
 from acts_ros import middleware
+from acts_ros.clocks import steady_timer
 from acts_ros.executables.middleware_watch import watch_middleware
 
 try:  # ROS 2 Kilted and newer; half the latency and a third of the CPU of the other at 1 kHz
@@ -132,6 +133,37 @@ def _end(executor: Executor, nodes: Sequence[Node], signals: StopSignals, *, has
             ends.callback(_call, node, "close")
             if has_failed:
                 ends.callback(_call, node, "failed")
+
+
+def call_soon(node: Node, callback: Callable[[], object]) -> None:
+    """Have the executor's thread call something; from any thread. Its exceptions end what those of a timer end.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Whose executor calls back. Without an executor nothing is called.
+    callback : callable
+        Called once, without arguments.
+    """
+
+    def call() -> None:
+        try:
+            callback()
+        except Exception as error:  # noqa: BLE001 - raised again
+            _raise_soon(node, error)
+
+    if node.executor is not None:
+        node.executor.create_task(call)
+
+
+def _raise_soon(node: Node, error: Exception) -> None:
+    """Raise on the executor's thread by a timer: a task that raises crashes the events executor (rclpy 7.1 and 9.1)."""
+
+    def fail() -> None:
+        node.destroy_timer(timer)
+        raise error
+
+    timer = steady_timer(node, 0.0, fail)
 
 
 def spin_for(executor: Executor, seconds: float) -> None:

@@ -43,7 +43,7 @@ from acts_ros import qos
 from acts_ros.clocks import steady_timer
 from acts_ros.composition import parameters_from
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
+from acts_ros.executor import call_soon, run
 from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
@@ -187,8 +187,7 @@ class ReconstructionNode(Node):
         # The events executor calls back once for each message, also where it was taken with another. If each call
         # recovered frames, more calls would come than end, and timers and services would wait longer and longer.
         if not self._held:
-            assert self.executor is not None
-            self.executor.create_task(lambda: self._take_held(self._held))
+            call_soon(self, lambda: self._take_held(self._held))
         self._held += held
 
     def _take_held(self, received: list[tuple[TactileSamples, int]]) -> None:

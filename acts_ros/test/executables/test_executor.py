@@ -19,9 +19,10 @@ pytestmark = pytest.mark.slow
 
 NODE = """
 import sys
+import threading
 import weakref
 from acts_core import errors
-from acts_ros.executor import run
+from acts_ros.executor import call_soon, run
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -50,6 +51,13 @@ class Example(Node):
             raise rclpy_implementation.RCLError(f"failed to send {sys.argv[-1]}: cannot publish data, at x.cpp:68")
         if self.ticks == (9 if "unsent" in sys.argv else 3):
             print("ticking", flush=True)
+            if "soon" in sys.argv:
+                threading.Thread(target=call_soon, args=(self, self.tell)).start()
+
+    def tell(self):
+        print("on the executor's thread:", threading.current_thread() is threading.main_thread(), flush=True)
+        if "failing" in sys.argv:
+            raise errors.RobotError("it has gone")
 
     def begin(self):
         print("begun", flush=True)
@@ -121,6 +129,24 @@ def test_an_answer_or_a_question_that_cannot_be_sent_is_told_and_ends_nothing(wh
     assert "[WARN]" in errors
     assert f"[acts_ros]: failed to send {what}: cannot publish data\n" in errors
     assert process.returncode == 0
+
+
+def test_another_thread_has_the_executors_thread_call_something() -> None:
+    with started("soon") as process:
+        assert process.stdout is not None
+        for words in ("begun", "ticking", "on the executor's thread: True"):
+            assert process.stdout.readline() == f"{words}\n"
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("closed\n", "")
+    assert process.returncode == 0
+
+
+def test_an_error_of_what_another_thread_has_called_ends_the_process_in_order() -> None:
+    with started("soon", "failing") as process:
+        output, errors = process.communicate(timeout=60)
+    assert output == "begun\nticking\non the executor's thread: True\nclosed\n"
+    assert errors.endswith("error: it has gone\n")
+    assert process.returncode == 1
 
 
 def test_a_node_whose_end_fails_does_not_keep_the_others_from_theirs() -> None:
