@@ -22,6 +22,7 @@ from std_srvs.srv import Trigger
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
+from acts_ros.executor import call_soon
 from acts_ros.middleware import NotAskedError, ask
 from acts_view.recording.recording import Recording
 from acts_view.web.requests import STOPS, Answer, Request
@@ -100,9 +101,10 @@ class Control:
             self._set(request, answer)
         else:
             self._requests.append((request, answer))
+            call_soon(self._node, self.step)
 
     def step(self) -> None:
-        """Begin and end recordings, and give up what nobody answers; often, on the executor's thread."""
+        """Begin and end recordings, and give up what nobody answers; now and then, on the executor's thread."""
         while self._requests:
             request, answer = self._requests.popleft()
             try:

@@ -24,6 +24,7 @@ from acts_core.errors import ArrayError
 from acts_core.words import counted
 from acts_ros.clocks import steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
+from acts_ros.executor import call_soon
 from acts_ros.log import STEADY, log_of
 from acts_ros.middleware import NotAskedError, ask
 from acts_ros.parameters import declare, node_options
@@ -40,10 +41,8 @@ from acts_view.web.server import ViewServer
 if TYPE_CHECKING:
     from acts_view.recording.bounded_bag import BoundedBag
 
-_STEP_PERIOD_S = 0.1
-# Somebody who wants to stop a robot waits for this.
-_CONTROL_PERIOD_S = 0.03
 _LOOK_PERIOD_S = 1.0
+_SEARCH_PERIOD_S = 0.1
 _DIAGNOSTICS_DEPTH = 100
 _FORGET_NODE_S = 60.0
 _TOLD_EVERY_S = 10.0
@@ -110,10 +109,10 @@ class ViewNode(PollingNode):
         # Not by a timer of the node: it costs more than what it would call.
         self._pace = Pace(1.0 / settings.rate_hz)
         self._server.every(1.0 / settings.rate_hz, self._show)
-        steady_timer(self, _STEP_PERIOD_S, self._step)
-        if self._control is not None:
-            steady_timer(self, _CONTROL_PERIOD_S, self._control.step)
         steady_timer(self, _LOOK_PERIOD_S, self._look)
+        # For the same reason it only runs while a page waits for the first skin.
+        self._search = steady_timer(self, _SEARCH_PERIOD_S, self._begin_or_end)
+        self._search.cancel()
         self.get_logger().info(f"open {self.address.url}")
 
     def close(self) -> None:
@@ -136,6 +135,7 @@ class ViewNode(PollingNode):
     def _on_pages(self, pages: int) -> None:
         """From the server's thread."""
         self._pages = pages
+        call_soon(self, self._begin_or_end)
 
     def _show(self) -> float:
         """Show what is new; on the server's thread. How much later than a period from now to look again [s]."""
@@ -153,16 +153,22 @@ class ViewNode(PollingNode):
                     )
             return self._pace.later_s(topics.image_waited_s for topics in self._skins.values())
 
-    def _step(self) -> None:
-        """Often: begin and end with the pages."""
+    def _begin_or_end(self) -> None:
+        """Begin with the first page, as soon as there is a skin, and end with the last one."""
         if not self._pages:
             self._leave()
         elif not self._skins:
             self._look()
+        if self._pages and not self._skins:
+            self._search.reset()
+        else:
+            self._search.cancel()
 
     def _look(self) -> None:
         """Now and then: which skins there are, what they are like, and what is said of all."""
         self._recording.step()
+        if self._control is not None:
+            self._control.step()
         self._forget()
         if not self._pages:
             return

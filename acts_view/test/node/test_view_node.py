@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.qos import QoSProfile
+from rclpy.timer import Timer
 from sensor_msgs.msg import Image
 from view_node_bench import DEADLINE_S, Bench
 from waiting import wait_for
@@ -22,6 +23,7 @@ from waiting import wait_for
 from acts_core.errors import ArrayError, SettingsError
 from acts_core.skin import RegionContact
 from acts_msgs.msg import (
+    Contact,
     Contacts,
     ContactSeries,
     HandStatus,
@@ -109,6 +111,26 @@ def test_a_page_sees_a_skin_that_it_was_not_told_of_and_the_skin_is_left_alone_a
     assert history[:, 4].max() == 3.0
     assert history[:, 2].sum() == 0
     wait_for(lambda: contact_subscribers(bench) == 0)
+
+
+def test_timers_rest_but_while_a_page_waits_for_a_skin(bench: Bench) -> None:
+    """A timer of ROS costs more than what the view would call by it."""
+    without_skin(bench)
+    assert not frequent_timers(bench)
+    with bench.connect() as client:
+        wait_for(lambda: frequent_timers(bench), "that a skin is looked for", DEADLINE_S)
+        bench.contact = bench.skin.create_publisher(Contact, "contact", qos.STREAM)
+        bench.until(lambda: "frame" in bench.headers, client, lambda: bench.press(1.0))
+        assert not frequent_timers(bench)
+    wait_for(lambda: contact_subscribers(bench) == 0)
+    assert not frequent_timers(bench)
+
+
+def test_a_page_that_goes_before_there_is_a_skin_leaves_no_search(bench: Bench) -> None:
+    without_skin(bench)
+    with bench.connect():
+        wait_for(lambda: frequent_timers(bench), "that a skin is looked for", DEADLINE_S)
+    wait_for(lambda: not frequent_timers(bench), "that no skin is looked for", DEADLINE_S)
 
 
 def test_where_nothing_is_for_viewers_the_image_is_that_at_frame_rate_as_in_a_bag(bench: Bench) -> None:
@@ -314,6 +336,16 @@ def test_recordings_may_be_meant_for_the_home_folder(monkeypatch: pytest.MonkeyP
     assert ViewSettings().record_folder == Path("recordings")
     with pytest.raises(SettingsError, match="~no_such_user/x: "):
         ViewSettings(record_dir="~no_such_user/x")
+
+
+def without_skin(bench: Bench) -> None:
+    bench.destroy([bench.contact])
+    wait_for(lambda: bench.view.count_publishers("/hand/contact") == 0, "that the skin is gone", DEADLINE_S)
+
+
+def frequent_timers(bench: Bench) -> list[Timer]:
+    """Those that run more often than once a second."""
+    return [timer for timer in bench.view.timers if not timer.is_canceled() and timer.timer_period_ns < 1_000_000_000]
 
 
 def contact_subscribers(bench: Bench) -> int:
