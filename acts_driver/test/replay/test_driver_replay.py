@@ -16,6 +16,7 @@ from driver_rig import Rig
 from pty_board import frame
 from recorded import DEFINITION, write_bag
 from rosbags.rosbag2 import StoragePlugin
+from waiting import wait_for
 
 from acts_core.errors import RecordingError, SettingsError
 from acts_core.frames import SampleFrame, Scheme
@@ -176,7 +177,7 @@ def test_a_closed_replay_holds_no_file(tmp_path: Path) -> None:
         links = [link for link in Path("/proc/self/fd").iterdir() if link.is_symlink()]
         return [str(link.readlink()) for link in links if str(tmp_path) in str(link.readlink())]
 
-    source.open()
+    wait_for(lambda: is_open(source), "the bag to be read")
     assert held()
     source.close()
     assert held() == []
@@ -185,10 +186,10 @@ def test_a_closed_replay_holds_no_file(tmp_path: Path) -> None:
 def test_what_is_wrong_with_a_bag_is_told_of_a_source_that_replays_it_all_the_same(tmp_path: Path) -> None:
     path = write_bag(tmp_path / "bag", {"/plate/samples": [(frame(k), START_NS + k * MS) for k in range(3)]})
     source = ReplaySource("bag", lambda: open_recording(ReplayOptions(path)))
-    source.open()
+    wait_for(lambda: is_open(source), "the bag to be read")
     assert source.note == ""
     (path / "metadata.yaml").unlink()
-    source.open()
+    wait_for(lambda: is_open(source), "the bag to be read")
     assert "was never closed" in source.note
     source.close()
 
@@ -294,3 +295,14 @@ def test_defaults_of_an_npz_file(tmp_path: Path) -> None:
     np.savez(tmp_path / "s.npz", indices=[[3, 1]], counts=[[5, 6]], rate_hz=50, rows=2, cols=2)
     (found,) = RecordedSamples.load(tmp_path / "s.npz").frames()
     assert (found.sequence, found.board_us, found.scheme, found.duration_us) == (0, 0, Scheme.UNKNOWN, 36)
+
+
+def is_open(source: ReplaySource) -> bool:
+    """Open it; False where a busy machine is still reading the bag, so that the next attempt may find it read."""
+    try:
+        source.open()
+    except RecordingError as error:
+        if "is still being read" not in str(error):
+            raise
+        return False
+    return True
