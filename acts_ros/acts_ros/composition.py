@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Parameters of single nodes of a process from its command line: ``--set NODE.PARAMETER=VALUE``.
+"""Nodes of a process with parameters of their own from its command line: ``--set NODE.PARAMETER=VALUE``.
 
 A ROS parameter on the command line (``-p name:=value``) goes to all nodes of a process, and nodes without it refuse it.
 Also, a launch argument always overrides the params file, even with its default; here `IN_PARAMS_FILE` sets nothing.
@@ -10,19 +10,56 @@ Also, a launch argument always overrides the params file, even with its default;
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.utilities import remove_ros_args
 
 from acts_core.errors import SettingsError
 from acts_core.settings import describe, from_text, unknown_key_message
+from acts_core.stop_signals import StopSignals
+from acts_ros.executor import run
 from acts_ros.middleware import telling_wrong_arguments
 from acts_ros.parameters import ros_value
 from acts_ros.params_files import given_to_all
 
 IN_PARAMS_FILE = "params_file"
 """Value that sets nothing: the parameter comes from the params file, or is the default."""
+
+
+def run_nodes(
+    nodes: Mapping[str, Callable[..., Node]],
+    settings: Mapping[str, type],
+    signals: StopSignals | None,
+    args: Sequence[str] | None,
+) -> int:
+    """`acts_ros.executor.run` with the parameters that the command line gives to each node.
+
+    Parameters
+    ----------
+    nodes : mapping of str to callable
+        What makes each node, by its name, from its ``parameter_overrides``; in the order in which they are made.
+    settings : mapping of str to type
+        Settings class of each node, by its name.
+    signals, args
+        As of `acts_ros.executor.run`.
+
+    Returns
+    -------
+    int
+        Exit code.
+
+    Raises
+    ------
+    SettingsError
+        As of `parameters_from`.
+    """
+    words = list(sys.argv if args is None else args)
+    given = parameters_from(words, settings)
+    return run([partial(make, parameter_overrides=given[name]) for name, make in nodes.items()], words, signals)
 
 
 def parameters_from(words: Sequence[str], nodes: Mapping[str, type]) -> dict[str, list[Parameter]]:

@@ -9,8 +9,8 @@ in between. The message `samples` is published only while it has subscribers.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
+from typing import Any
 
 from acts_core.kernels import skip_extras
 from acts_core.stop_signals import StopSignals
@@ -20,8 +20,7 @@ from acts_driver.settings import DriverSettings
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
 from acts_recon.settings import ReconstructionSettings
-from acts_ros.composition import parameters_from
-from acts_ros.executor import run
+from acts_ros.composition import run_nodes
 
 SETTINGS: dict[str, type] = {"driver": DriverSettings, "reconstruction": ReconstructionSettings}
 """The settings classes of the nodes, by name."""
@@ -37,18 +36,16 @@ def prepare() -> None:
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run both nodes and return the exit code."""
     skip_extras()
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
     reconstructions: list[ReconstructionNode] = []
 
-    def make_reconstruction() -> ReconstructionNode:
-        reconstructions.append(ReconstructionNode(subscribes=False, parameter_overrides=given["reconstruction"]))
+    def make_reconstruction(**given: Any) -> ReconstructionNode:
+        reconstructions.append(ReconstructionNode(subscribes=False, **given))
         return reconstructions[0]
 
-    def make_driver() -> DriverNode:
-        driver = DriverNode(parameter_overrides=given["driver"])
+    def make_driver(**given: Any) -> DriverNode:
+        driver = DriverNode(**given)
         driver.consumers.append(reconstructions[0].take)
         return driver
 
     # The driver last, so that it is destroyed first: its frames end before the node that processes them.
-    return run([make_reconstruction, make_driver], words, signals)
+    return run_nodes({"reconstruction": make_reconstruction, "driver": make_driver}, SETTINGS, signals, args)

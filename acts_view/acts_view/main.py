@@ -5,12 +5,10 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from acts_core.stop_signals import StopSignals
-from acts_ros.composition import parameters_from
-from acts_ros.executor import run
+from acts_ros.composition import run_nodes
 from acts_view.nodes.view_node import ViewNode
 from acts_view.settings import ViewSettings
 
@@ -20,6 +18,4 @@ SETTINGS: dict[str, type] = {"view": ViewSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: ViewNode(parameter_overrides=given["view"])], words, signals)
+    return run_nodes({"view": ViewNode}, SETTINGS, signals, args)

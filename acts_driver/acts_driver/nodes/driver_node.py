@@ -9,7 +9,6 @@ Topics: samples, baseline, board, and board_image, board_object with what the bo
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Callable, Sequence
 
@@ -30,9 +29,8 @@ from acts_driver.port import Source
 from acts_driver.settings import DriverSettings
 from acts_msgs.msg import TactileSamples
 from acts_ros.clocks import keep_system_clock
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import SamplesMessage, skin_frame
 from acts_ros.parameters import declare, node_options
@@ -273,6 +271,4 @@ SETTINGS: dict[str, type] = {"driver": DriverSettings}
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
     skip_extras()
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: DriverNode(parameter_overrides=given["driver"])], words, signals)
+    return run_nodes({"driver": DriverNode}, SETTINGS, signals, args)

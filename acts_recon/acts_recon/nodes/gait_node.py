@@ -8,7 +8,6 @@ Topics: LEFT/contact and RIGHT/contact in; steps and gait out.
 
 from __future__ import annotations
 
-import sys
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,9 +24,8 @@ from acts_msgs.msg import Gait as GaitMessage
 from acts_recon.gait import FEET, Gait, GaitConfig, GaitTracker, Step
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
 from acts_ros.messages import ContactFields, read_contact, set_stamp
 from acts_ros.parameters import declare, node_options
 from acts_ros.polled import PollingNode
@@ -160,6 +158,4 @@ SETTINGS: dict[str, type] = {"gait": GaitSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: GaitNode(parameter_overrides=given["gait"])], words, signals)
+    return run_nodes({"gait": GaitNode}, SETTINGS, signals, args)

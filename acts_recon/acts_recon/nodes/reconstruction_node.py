@@ -9,7 +9,6 @@ confidence, object and view/* out.
 
 from __future__ import annotations
 
-import sys
 import time
 from collections import Counter, defaultdict, deque
 from collections.abc import Sequence
@@ -41,9 +40,9 @@ from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_recon.settings import ReconstructionConfig, ReconstructionSettings
 from acts_ros import qos
 from acts_ros.clocks import steady_timer
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import call_soon, run
+from acts_ros.executor import call_soon
 from acts_ros.log import log_of
 from acts_ros.messages import ContactFields, baseline_of, frame_of, set_stamp, stamp_ns_of, write_contact
 from acts_ros.parameters import declare, node_options
@@ -358,6 +357,4 @@ SETTINGS: dict[str, type] = {"reconstruction": ReconstructionSettings}
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
     skip_extras()
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: ReconstructionNode(parameter_overrides=given["reconstruction"])], words, signals)
+    return run_nodes({"reconstruction": ReconstructionNode}, SETTINGS, signals, args)

@@ -10,7 +10,6 @@ Publishes the ball's true position on ``ball/truth``, for evaluation only: no co
 from __future__ import annotations
 
 import math
-import sys
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack, closing
@@ -28,9 +27,8 @@ from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_ros import qos
 from acts_ros.clocks import keep_system_clock
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
 from acts_ros.log import log_of
 from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options
@@ -199,6 +197,4 @@ SETTINGS: dict[str, type] = {"ball_world": BallWorldSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node and return the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: BallWorld(parameter_overrides=given["ball_world"])], words, signals)
+    return run_nodes({"ball_world": BallWorld}, SETTINGS, signals, args)

@@ -9,12 +9,10 @@ diagnostics).
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from acts_core.stop_signals import StopSignals
-from acts_ros.composition import parameters_from
-from acts_ros.executor import run
+from acts_ros.composition import run_nodes
 from acts_skins.contacts.node import SkinContactsNode, SkinContactsSettings
 from acts_skins.overview import main as overview
 
@@ -24,10 +22,4 @@ SETTINGS: dict[str, type] = {**overview.SETTINGS, "skin_contacts": SkinContactsS
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the nodes and return the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run(
-        [*overview.factories(given), lambda: SkinContactsNode(parameter_overrides=given["skin_contacts"])],
-        words,
-        signals,
-    )
+    return run_nodes({**overview.NODES, "skin_contacts": SkinContactsNode}, SETTINGS, signals, args)

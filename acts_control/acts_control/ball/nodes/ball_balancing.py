@@ -8,8 +8,8 @@ Nothing is sent between the three: the control loop asks the other two when its 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
+from typing import Any
 
 from rclpy.node import Node
 
@@ -17,8 +17,7 @@ from acts_control.ball.nodes.ball_control_node import BallControlNode, BallContr
 from acts_control.ball.nodes.ball_state_node import BallStateNode, BallStateSettings
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode, BallTrajectorySettings
 from acts_core.stop_signals import StopSignals
-from acts_ros.composition import parameters_from
-from acts_ros.executor import run
+from acts_ros.composition import run_nodes
 
 SETTINGS: dict[str, type] = {
     "ball_state": BallStateSettings,
@@ -30,23 +29,22 @@ SETTINGS: dict[str, type] = {
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the three nodes; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
     states: list[BallStateNode] = []
     trajectories: list[BallTrajectoryNode] = []
 
-    def make_state() -> Node:
-        states.append(BallStateNode(is_driven=True, parameter_overrides=given["ball_state"]))
+    def make_state(**given: Any) -> Node:
+        states.append(BallStateNode(is_driven=True, **given))
         return states[0]
 
-    def make_trajectory() -> Node:
-        trajectories.append(BallTrajectoryNode(is_driven=True, parameter_overrides=given["ball_trajectory"]))
+    def make_trajectory(**given: Any) -> Node:
+        trajectories.append(BallTrajectoryNode(is_driven=True, **given))
         return trajectories[0]
 
-    def make_control() -> Node:
-        control = BallControlNode(subscribes=False, parameter_overrides=given["ball_control"])
+    def make_control(**given: Any) -> Node:
+        control = BallControlNode(subscribes=False, **given)
         control.follow(states[0], trajectories[0])
         return control
 
     # Control last: it is closed first, while what it asks is still there.
-    return run([make_state, make_trajectory, make_control], words, signals)
+    nodes = {"ball_state": make_state, "ball_trajectory": make_trajectory, "ball_control": make_control}
+    return run_nodes(nodes, SETTINGS, signals, args)

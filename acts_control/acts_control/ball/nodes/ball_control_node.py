@@ -8,7 +8,6 @@ Topics: ball/state and ball/reference in; ball/status and ball/tilt out. Service
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -30,9 +29,8 @@ from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference, BallState
 from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import ERROR, OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
 from acts_ros.log import LoggedChanges, log_of
 from acts_ros.messages import ns_of, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
@@ -265,6 +263,4 @@ SETTINGS: dict[str, type] = {"ball_control": BallControlSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: BallControlNode(parameter_overrides=given["ball_control"])], words, signals)
+    return run_nodes({"ball_control": BallControlNode}, SETTINGS, signals, args)

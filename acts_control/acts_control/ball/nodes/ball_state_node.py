@@ -8,7 +8,6 @@ Topics: contact and ball/tilt in; ball/state and contact_statistics out.
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -26,9 +25,8 @@ from acts_core.stop_signals import StopSignals
 from acts_core.words import counted
 from acts_msgs.msg import BallState, Contact, StreamStatistics
 from acts_ros.clocks import keep_system_clock, steady_timer
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import run
 from acts_ros.log import STEADY
 from acts_ros.messages import ns_of, read_contact, set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
@@ -247,6 +245,4 @@ SETTINGS: dict[str, type] = {"ball_state": BallStateSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: BallStateNode(parameter_overrides=given["ball_state"])], words, signals)
+    return run_nodes({"ball_state": BallStateNode}, SETTINGS, signals, args)

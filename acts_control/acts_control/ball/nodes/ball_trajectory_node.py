@@ -8,7 +8,6 @@ Topics: ball/status in; ball/reference out.
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -24,8 +23,7 @@ from acts_core.settings import Changeable, setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import BalanceStatus, BallReference
 from acts_ros.clocks import keep_system_clock, steady_timer
-from acts_ros.composition import parameters_from
-from acts_ros.executor import run
+from acts_ros.composition import run_nodes
 from acts_ros.messages import set_stamp, skin_frame
 from acts_ros.parameters import declare, node_options, set_rate
 from acts_ros.publishers import TolerantPublisher
@@ -158,6 +156,4 @@ SETTINGS: dict[str, type] = {"ball_trajectory": BallTrajectorySettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: BallTrajectoryNode(parameter_overrides=given["ball_trajectory"])], words, signals)
+    return run_nodes({"ball_trajectory": BallTrajectoryNode}, SETTINGS, signals, args)

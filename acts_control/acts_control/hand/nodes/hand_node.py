@@ -8,7 +8,6 @@ Topics: ~/command in; joint_states out, and cmd_leap where the hand is moved by 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -19,9 +18,8 @@ from acts_control.hand.nodes.motor_node import MotorNode, MotorSettings
 from acts_core.errors import PacketError
 from acts_core.stop_signals import StopSignals
 from acts_ros.clocks import Stalls
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import WARN, Report
-from acts_ros.executor import run
 from acts_ros.log import STEADY
 from acts_ros.messages import message_of
 from acts_ros.parameters import declare, node_options
@@ -107,6 +105,4 @@ SETTINGS: dict[str, type] = {"hand": HandSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: HandNode(parameter_overrides=given["hand"])], words, signals)
+    return run_nodes({"hand": HandNode}, SETTINGS, signals, args)

@@ -9,7 +9,6 @@ Topics: regions in; joint_states, hand/status and hand/timing out. Services: ~/g
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -37,9 +36,8 @@ from acts_core.settings import setting
 from acts_core.stop_signals import StopSignals
 from acts_msgs.msg import HandStatus, HandTiming, RegionContacts
 from acts_ros.clocks import steady_timer
-from acts_ros.composition import parameters_from
+from acts_ros.composition import run_nodes
 from acts_ros.diagnostics import OK, WARN, Report
-from acts_ros.executor import run
 from acts_ros.log import STEADY, LoggedChanges
 from acts_ros.messages import RegionsFields, read_regions, set_stamp
 from acts_ros.parameters import declare, node_options
@@ -315,6 +313,4 @@ SETTINGS: dict[str, type] = {"hand_reflexes": HandReflexesSettings}
 
 def main(signals: StopSignals | None = None, args: Sequence[str] | None = None) -> int:
     """Run the node; the exit code."""
-    words = list(sys.argv if args is None else args)
-    given = parameters_from(words, SETTINGS)
-    return run([lambda: HandReflexesNode(parameter_overrides=given["hand_reflexes"])], words, signals)
+    return run_nodes({"hand_reflexes": HandReflexesNode}, SETTINGS, signals, args)
