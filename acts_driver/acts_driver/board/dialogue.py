@@ -153,7 +153,7 @@ class BoardLink:
         """Tell the board how its taxels lie on the skin, None: as in the matrix; raises as `query` does."""
         if skin_map is not None:
             for first in range(0, len(skin_map.taxels), MAP_PIECE_MAX):
-                self._done(self._exchange(partial(_encode_places, skin_map, first)))
+                self._done(self._exchange(partial(encode_map_data, skin_map=skin_map, first=first)))
         return self._done(self._exchange(lambda request: encode_map_end(request, skin_map)))
 
     def announce(self, model: BoardModel) -> Reply:
@@ -194,7 +194,7 @@ class BoardLink:
                 return self._done(self._exchange(encode_upload_end))
             piece = model.payload[at : at + UPLOAD_PIECE_MAX]
             try:
-                reply = self._exchange(partial(_encode_data, at, piece))
+                reply = self._exchange(partial(encode_upload_data, offset=at, piece=piece))
             except NotHeardError as error:
                 # The board keeps what it has: from a busy machine, an upload that begins anew each time would not end.
                 not_heard = error
@@ -249,11 +249,3 @@ class BoardLink:
         if not reply.ok:
             raise RefusedError(reply)
         return reply
-
-
-def _encode_places(skin_map: SkinMap, first: int, request: int) -> bytes:
-    return encode_map_data(request, skin_map, first)
-
-
-def _encode_data(offset: int, piece: bytes, request: int) -> bytes:
-    return encode_upload_data(request, offset, piece)
