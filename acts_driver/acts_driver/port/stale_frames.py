@@ -70,19 +70,16 @@ class HeldBack:
     ----------
     needed : bool
         Whether the frames have no time of their own; of others none is held back.
-    now_s : callable
-        A steady clock [s].
     """
 
-    def __init__(self, *, needed: bool, now_s: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, *, needed: bool) -> None:
         self._needed = needed
-        self._now_s = now_s
         self._until_s: float | None = None
 
     def opened(self) -> None:
         """Tell that the port was opened."""
         if self._needed:
-            self._until_s = self._now_s() + _HELD_S
+            self._until_s = time.monotonic() + _HELD_S
 
     def wait(self, catch_up: Callable[[], bool]) -> None:
         """Wait until what waited has been read; `catch_up` waits for all that has arrived, and says whether it is."""
@@ -98,6 +95,6 @@ class HeldBack:
         until_s = self._until_s
         if until_s is None:
             return False
-        if self._now_s() >= until_s and not waits():
+        if time.monotonic() >= until_s and not waits():
             self._until_s = None
         return True

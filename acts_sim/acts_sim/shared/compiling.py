@@ -11,19 +11,19 @@ from contextlib import contextmanager
 
 COMPILING = "compiling: this takes long the first time on a machine"
 
+_AFTER_S = 1.0
+
 
 @contextmanager
-def telling_of_compiling(tell: Callable[[str], None], *, after_s: float = 1.0) -> Iterator[None]:
+def telling_of_compiling(tell: Callable[[str], None]) -> Iterator[None]:
     """Tell it, from a thread of its own, unless the block is over before.
 
     Parameters
     ----------
     tell : callable
         Gets the sentence.
-    after_s : float
-        From the beginning of the block until it is told [s].
     """
-    timer = threading.Timer(after_s, tell, [COMPILING])
+    timer = threading.Timer(_AFTER_S, tell, [COMPILING])
     timer.daemon = True
     timer.start()
     try:
