@@ -16,13 +16,12 @@ import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from typing import NamedTuple
 
 import numpy as np
 import psutil
 
-from acts_core.runtime import StreamCounter
 from acts_msgs.msg import Contact
-from acts_ros.messages import seconds_of
 from acts_ros.processes.packages import executable
 from acts_ros.qos import STREAM
 from acts_tools.bench.result import Figure, Result
@@ -40,6 +39,7 @@ from acts_tools.bench.rigs.processes import (
 )
 from acts_tools.bench.rigs.skin import pressed
 from acts_tools.bench.rigs.view_clients import Watched
+from acts_tools.bench.skins.stream import ContactStream
 from acts_tools.bench.workbench import Workbench
 from acts_tools.percentiles import percentiles
 from acts_tools.process_load import cpu_s
@@ -60,11 +60,7 @@ def measure(workbench: Workbench, *, is_realtime: bool = False) -> Result:
     is_realtime : bool
         Whether board, skin and subscriber run under SCHED_FIFO, where that is allowed; the page's server never does.
     """
-    counter = StreamCounter()
-
-    def count(message: Contact) -> None:
-        counter.step(message.sequence, time.time() - seconds_of(message.header.stamp))
-
+    contacts = ContactStream()
     port = _free_port()
     with (
         virtual_board(
@@ -80,21 +76,18 @@ def measure(workbench: Workbench, *, is_realtime: bool = False) -> Result:
             check_alive(skin, workbench.folder / "tactile.log")
             check_alive(server, workbench.folder / "view.log")
 
-        graph.node.create_subscription(Contact, "contact", count, STREAM)
-        graph.spin_until(lambda: counter.received, START_TIMEOUT_S, "the first contact", check)
+        graph.node.create_subscription(Contact, "contact", contacts.take, STREAM)
+        graph.spin_until(lambda: contacts.ever_received, START_TIMEOUT_S, "the first contact", check)
         graph.spin_until(lambda: _listens(port), START_TIMEOUT_S, "the page", check)
         half_s = workbench.seconds / 2
         with realtime.subscriber(is_realtime):
             graph.spin_for(_SETTLE_S)
-            alone = _Stretch(counter)
-            graph.spin_for(half_s)
-            alone.end()
+            alone = _count(contacts, graph, half_s)
         with _watchers(workbench, port, half_s + _SETTLE_S) as watchers:
             with realtime.subscriber(is_realtime):
                 graph.spin_for(_SETTLE_S)
-                watched, load = _Stretch(counter), _Load(server.pid)
-                graph.spin_for(half_s)
-                watched.end()
+                load = _Load(server.pid)
+                watched = _count(contacts, graph, half_s)
             load.end()
             graph.spin_until(
                 lambda: all(one.poll() is not None for one in watchers.values()), _WATCHERS_S, "the clients' end", check
@@ -103,29 +96,28 @@ def measure(workbench: Workbench, *, is_realtime: bool = False) -> Result:
     return _result(alone, watched, load, got)
 
 
-class _Stretch:
-    """What came of the stream from now until `end`."""
+class _Stretch(NamedTuple):
+    """What came of the stream for a while: contacts a second, how many were lost, and how late 99 % were."""
 
-    def __init__(self, counter: StreamCounter) -> None:
-        self._counter = counter
-        counter.take_latencies()
-        self._began = time.monotonic(), counter.received, counter.lost
-        self.p99_ms: float | None = None
-
-    def end(self) -> None:
-        """It is over."""
-        began_s, received, lost = self._began
-        self._hz = (self._counter.received - received) / (time.monotonic() - began_s)
-        self._lost = self._counter.lost - lost
-        self.p99_ms = percentiles(np.asarray(self._counter.take_latencies(), dtype=np.float64) * 1e3)["p99"]
+    hz: float
+    lost: int
+    p99_ms: float | None
 
     def figures(self, key: str, label: str) -> list[Figure]:
         """As figures."""
         return [
-            Figure(f"{key}_hz", f"contacts, {label}", self._hz, "Hz"),
-            Figure(f"{key}_lost", "    lost", self._lost),
+            Figure(f"{key}_hz", f"contacts, {label}", self.hz, "Hz"),
+            Figure(f"{key}_lost", "    lost", self.lost),
             Figure(f"{key}_p99_ms", "    stamp to reception, 99 % within", self.p99_ms, "ms"),
         ]
+
+
+def _count(contacts: ContactStream, graph: Graph, seconds: float) -> _Stretch:
+    began_s = time.monotonic()
+    contacts.begin(began_s)
+    graph.spin_for(seconds)
+    hz = contacts.received / (time.monotonic() - began_s)
+    return _Stretch(hz, contacts.lost, contacts.take_latencies_ms()["p99"])
 
 
 class _Load:
