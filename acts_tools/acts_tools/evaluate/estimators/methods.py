@@ -69,27 +69,6 @@ MethodFactory = Callable[[SkinSetup, Dictionary, Mapping[str, SettingValue]], Me
 """Function from a skin, a dictionary (for methods that use one) and settings by name to a method."""
 
 
-def _registered(kind: type[Method]) -> MethodFactory:
-    return lambda skin, dictionary, settings: kind(skin, _config(kind, settings))
-
-
-def _config(kind: type[Method], settings: Mapping[str, SettingValue]) -> Any:
-    """Settings of a method, from all given settings."""
-    return kind.Config(**{name: value for name, value in settings.items() if name in describe(kind.Config)})
-
-
-FACTORIES: dict[str, MethodFactory] = {
-    "paper": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), dictionary),
-    "acts": _registered(Fusion),
-    "dct": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), cosine_dictionary()),
-    "haar": lambda skin, dictionary, settings: PerFrame(skin, _config(PerFrame, settings), haar_dictionary()),
-    "zero": _registered(ZeroFill),
-    "linear": _registered(Linear),
-    "gp": _registered(GaussianProcess),
-    "last": _registered(LastValue),
-}
-"""The node's two methods by their names in reports, and baselines."""
-
 KINDS: dict[str, type[Method]] = {
     "paper": PerFrame,
     "acts": Fusion,
@@ -100,7 +79,23 @@ KINDS: dict[str, type[Method]] = {
     "gp": GaussianProcess,
     "last": LastValue,
 }
-"""What each of `FACTORIES` makes."""
+"""The node's two methods by their names in reports, and baselines."""
+
+_DICTIONARIES = {"dct": cosine_dictionary, "haar": haar_dictionary}
+
+
+def _factory(name: str, kind: type[Method]) -> MethodFactory:
+    def make(skin: SkinSetup, dictionary: Dictionary, settings: Mapping[str, SettingValue]) -> Method:
+        own: Any = kind.Config(**{key: value for key, value in settings.items() if key in describe(kind.Config)})
+        if kind is not PerFrame:
+            return kind(skin, own)
+        return PerFrame(skin, own, _DICTIONARIES[name]() if name in _DICTIONARIES else dictionary)
+
+    return make
+
+
+FACTORIES = {name: _factory(name, kind) for name, kind in KINDS.items()}
+"""What makes each of `KINDS`."""
 
 ALIASES = {"fusion": "acts", "per_frame": "paper"}
 """The node's names of these two, and what reports call them."""
@@ -145,5 +140,5 @@ def method_named(name: str) -> MethodFactory:
     if known_as in FACTORIES:
         return FACTORIES[known_as]
     if known_as in METHODS:
-        return _registered(METHODS[known_as])
+        return _factory(known_as, METHODS[known_as])
     raise SettingsError(f"method {name!r}: allowed is one of {', '.join(method_names())}")
