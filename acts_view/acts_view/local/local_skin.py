@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from acts_core.errors import ArrayError
 from acts_core.frames import SampleFrame
 from acts_driver.baseline import Baseline
-from acts_recon.contacts import TrackedBlob
 from acts_recon.frame_pipeline import RepeatedFrameError
 from acts_recon.frame_recovery import FrameRecovery
 from acts_recon.settings import ReconstructionConfig
-from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample, SkinShape
+from acts_view.skin.snapshot import Frame, RegionState, Sample, SkinShape, contact_table
 
 # Where nobody takes them, so many samples are kept: ten seconds at 1 kHz.
 _SAMPLES_MAX = 10_000
@@ -105,13 +104,14 @@ class LocalSkin:
             found = self._recovery
             recovery, contact = found.recovery, found.contact
             confidence, age_s = recovery.confidence(), recovery.age_s
+            numbers, table = contact_table(found.blobs)
             frame = Frame(
                 stamp_s=self._stamp_ns * 1e-9,
                 image=np.rint(recovery.image).astype(np.uint16),
                 confidence=None if confidence is None else confidence.copy(),
                 age_s=None if age_s is None else np.where(age_s <= self._duration_s, np.float32(0.0), age_s),
-                contact_numbers=np.array([blob.number for blob in found.blobs], np.uint32),
-                contacts=np.array([_row(blob) for blob in found.blobs], np.float32).reshape(-1, len(CONTACT_COLUMNS)),
+                contact_numbers=numbers,
+                contacts=table,
                 outlines=self._outlines(),
                 touch=(contact.x_m, contact.y_m, contact.force_n, contact.peak_counts, contact.area_m2)
                 if contact.in_contact
@@ -150,17 +150,3 @@ class LocalSkin:
         self._duration_s = frame.duration_us * 1e-6
         if len(self._samples) < _SAMPLES_MAX:
             self._samples.append(Sample(stamp_ns * 1e-9, self._recovery.contact.force_n, latency_ms, lost))
-
-
-def _row(blob: TrackedBlob) -> tuple[float, ...]:
-    speed_m_s = math.hypot(blob.vx_m_s, blob.vy_m_s)
-    return (
-        blob.x_m,
-        blob.y_m,
-        blob.force_n,
-        blob.peak_counts,
-        blob.area_m2,
-        blob.spread_m,
-        speed_m_s,
-        blob.age_s,
-    )

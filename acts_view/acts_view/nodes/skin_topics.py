@@ -30,7 +30,6 @@ from acts_msgs.msg import (
 from acts_ros import qos
 from acts_ros.log import STEADY
 from acts_ros.messages import (
-    ContactsFields,
     ImageFields,
     RegionsFields,
     read_contacts,
@@ -50,7 +49,7 @@ from acts_view.nodes.robot_states import (
     joint_angles,
     known_object,
 )
-from acts_view.skin.snapshot import CONTACT_COLUMNS, Frame, RegionState, Sample
+from acts_view.skin.snapshot import Frame, RegionState, Sample, contact_table
 
 R = TypeVar("R")
 
@@ -196,7 +195,9 @@ class SkinTopics:
         came |= {"contacts": contacts, "regions": regions}
         self._came_s |= {what: now_s for what, one in came.items() if one is not None}
         old = self._without_stale(now_s, is_image_new=image is not None, is_touch_new=bool(samples))
-        numbers, table = (old.contact_numbers, old.contacts) if contacts is None else _table(contacts)
+        numbers, table = old.contact_numbers, old.contacts
+        if contacts is not None:
+            numbers, table = contact_table(contacts.contacts[:SHOWN])
         self._frame = Frame(
             stamp_s=max(stamps_s, default=old.stamp_s),
             # More than a converter can give has no colour and no force.
@@ -298,25 +299,6 @@ def _pixels(image: ImageFields | None, encoding: str) -> NDArray[Any] | None:
     if image.step != image.width * kind.itemsize or len(image.data) != image.step * image.height:
         return None
     return np.frombuffer(image.data, kind).reshape(image.height, image.width).astype(_PIXELS[encoding])
-
-
-def _table(fields: ContactsFields) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
-    shown = fields.contacts[:SHOWN]
-    rows = [
-        (
-            one.x_m,
-            one.y_m,
-            one.force_n,
-            one.peak_counts,
-            one.area_m2,
-            one.spread_m,
-            math.hypot(one.vx_m_s, one.vy_m_s),
-            one.age_s,
-        )
-        for one in shown
-    ]
-    numbers = np.array([one.number for one in shown], np.uint32)
-    return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
 
 
 def _regions(fields: RegionsFields) -> list[RegionState]:

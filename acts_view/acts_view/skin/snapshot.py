@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from acts_core.array import MAX_SIDE, TOUCH_COUNTS
 from acts_core.errors import ActsError, ArrayError
-from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, force_table, layout
+from acts_core.skin import LAYOUTS, ForceResponse, Layout, MeasuredForceResponse, TrackedBlob, force_table, layout
 from acts_view.skin.arrangement import arrangement
 from acts_view.skin.history import COLUMNS
 from acts_view.web.codec import encode
@@ -94,6 +95,25 @@ class Frame:
     hand: dict[str, Any] = field(default_factory=dict)
     ball: dict[str, Any] = field(default_factory=dict)
     object: dict[str, Any] = field(default_factory=dict)
+
+
+def contact_table(contacts: Sequence[TrackedBlob]) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+    """Numbers of contacts, and the rest of them, as a `Frame` has it."""
+    rows = [
+        (
+            one.x_m,
+            one.y_m,
+            one.force_n,
+            one.peak_counts,
+            one.area_m2,
+            one.spread_m,
+            math.hypot(one.vx_m_s, one.vy_m_s),
+            one.age_s,
+        )
+        for one in contacts
+    ]
+    numbers = np.array([one.number for one in contacts], np.uint32)
+    return numbers, np.array(rows, np.float32).reshape(-1, len(CONTACT_COLUMNS))
 
 
 @dataclass(frozen=True)
