@@ -40,7 +40,9 @@ class BusyMeter:
         return (self._now_s() - self._busy_s) / max(time.monotonic() - self._begin_s, 1e-9) * 100
 
     def _now_s(self) -> float:
-        return _machine_busy_s()
+        # A process that ends meanwhile is among its parent's children.
+        processes = (process.info["cpu_times"] for process in psutil.process_iter(["cpu_times"]))
+        return sum(sum(times[:4]) for times in processes if times) + getattr(psutil.cpu_times(), "steal", 0.0)
 
 
 class OthersMeter(BusyMeter):
@@ -55,12 +57,6 @@ class OthersMeter(BusyMeter):
 
     def _now_s(self) -> float:
         return super()._now_s() - _own_s()
-
-
-def _machine_busy_s() -> float:
-    # A process that ends meanwhile is among its parent's children.
-    processes = (process.info["cpu_times"] for process in psutil.process_iter(["cpu_times"]))
-    return sum(sum(times[:4]) for times in processes if times) + getattr(psutil.cpu_times(), "steal", 0.0)
 
 
 def _own_s() -> float:
