@@ -32,6 +32,8 @@ class BagRecording:
         For a person: what is wrong with the bag; None where it is whole.
     first_ns : int
         Stamp of the first frame, whole microseconds.
+    topic : str
+        Its full name.
 
     Raises
     ------
@@ -48,23 +50,18 @@ class BagRecording:
         self._path = path
         with open_bag(path) as bag:
             self.note = bag.note
-            self._topic = _choose(path, topic, bag.topics())
+            self.topic = _choose(path, topic, bag.topics())
             try:
-                bag.check_definition(self._topic)
+                bag.check_definition(self.topic)
             except RecordingError as error:
                 raise RecordingError(f"the bag '{path}': {error}") from error
-            _, self._end_ns = bag.span_ns([self._topic])
-            first = next(bag.messages([self._topic]), None)
+            _, self._end_ns = bag.span_ns([self.topic])
+            first = next(bag.messages([self.topic]), None)
         if first is None:
-            raise RecordingError(f"the bag '{path}' has no messages on {self._topic}")
+            raise RecordingError(f"the bag '{path}' has no messages on {self.topic}")
         # Of the topic, not of the bag, in which others may have begun before it.
         self._begin_ns = first[1]
         self.first_ns = 1000 * next(self.frames()).board_us
-
-    @property
-    def topic(self) -> str:
-        """Its full name."""
-        return self._topic
 
     @property
     def length_us(self) -> int:
@@ -75,16 +72,16 @@ class BagRecording:
         """One pass; see `acts_driver.replay.recordings.SeekableRecording.frames`."""
         from_ns = self._begin_ns + 1000 * from_us if from_us else None
         with self._open(self._path) as bag:
-            if self._topic not in bag.topics():
+            if self.topic not in bag.topics():
                 raise RecordingError(
-                    f"the bag '{self._path}' has no topic {self._topic} any more: it is another one now"
+                    f"the bag '{self._path}' has no topic {self.topic} any more: it is another one now"
                 )
-            for number, (_, _, data) in enumerate(bag.messages([self._topic], from_ns)):
+            for number, (_, _, data) in enumerate(bag.messages([self.topic], from_ns)):
                 try:
                     yield frame_of(message_of(data, TactileSamples))
                 except PacketError as error:
                     raise RecordingError(
-                        f"message {number} of {self._topic} in '{self._path}' cannot be read: {error}; was it recorded "
+                        f"message {number} of {self.topic} in '{self._path}' cannot be read: {error}; was it recorded "
                         "with another version of acts_msgs?"
                     ) from error
 

@@ -58,6 +58,8 @@ class ReplaySource:
 
     Attributes
     ----------
+    name : str
+        As given.
     silence : str
         Why no bytes come, where that is known; empty otherwise.
     """
@@ -71,7 +73,7 @@ class ReplaySource:
         loop: bool = True,
         delay_s: float = 1.0,
     ) -> None:
-        self._name = name
+        self.name = name
         self._open_recording = open_recording
         self._speed = speed
         self._loop = loop
@@ -81,11 +83,6 @@ class ReplaySource:
         self._pass: Iterator[SampleFrame] = iter(())
         self._zero_us: int | None = None
         self.silence = ""
-
-    @property
-    def name(self) -> str:
-        """The recording."""
-        return self._name
 
     @property
     def note(self) -> str:
@@ -102,7 +99,7 @@ class ReplaySource:
             self._opening = background.begin(self._open_recording)
         opening = self._opening
         if not background.is_done(opening):
-            raise RecordingError(f"{self._name} is still being read; try again until it is")
+            raise RecordingError(f"{self.name} is still being read; try again until it is")
         self._opening = None
         self._recording = opening.result()
         self._in_pass = 0
@@ -132,7 +129,7 @@ class ReplaySource:
     def read(self) -> bytes:
         """Return the frames that are due, waiting for the first one up to `READ_TIMEOUT_S`."""
         if self._recording is None:
-            raise PortError(f"recording {self._name} is not open")
+            raise PortError(f"recording {self.name} is not open")
         zero_us, coming = self._zero_us, self._next
         if zero_us is None or coming is None:
             time.sleep(READ_TIMEOUT_S)
@@ -166,7 +163,7 @@ class ReplaySource:
 
     def write(self, data: bytes, timeout_s: float) -> None:
         """A recording takes no commands: raises `PortError`."""
-        raise PortError(f"{self._name} takes no commands")
+        raise PortError(f"{self.name} takes no commands")
 
     def close(self) -> None:
         """Let go of the recording, and of its file."""

@@ -133,6 +133,8 @@ class HandWorld:
 
     Attributes
     ----------
+    model, data : mujoco.MjModel, mujoco.MjData
+        MuJoCo's model and state, for pictures.
     motors : list of Motor
         Sixteen motors, ordered by ID.
     bus : Bus
@@ -153,8 +155,8 @@ class HandWorld:
         self._thing: HeldObject | None = None
         if config.object != "none":
             self._thing = held_object(config.object, config.object_size_m, config.object_mass_kg)
-        self._model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
-        self._data = mujoco.MjData(self._model)
+        self.model = hand_model.build(self._thing, STEP_S / _SUBSTEPS)
+        self.data = mujoco.MjData(self.model)
         self.layout = layout(config.layout, 32, 32)
         self._require_links()
         overload = OverloadLaw(config.overload_after_s, config.overload_ma)
@@ -164,18 +166,18 @@ class HandWorld:
         self.bus: Bus = Bus(self.motors)
         self.blocked: set[int] = set()
         joints = [
-            hand_model.joint_index(self._model, name)
+            hand_model.joint_index(self.model, name)
             for _, name in sorted((link.motor_id, link.joint) for link in LINKS)
         ]
-        self._q = np.array([self._model.jnt_qposadr[joint] for joint in joints])
-        self._dof = np.array([self._model.jnt_dofadr[joint] for joint in joints])
+        self._q = np.array([self.model.jnt_qposadr[joint] for joint in joints])
+        self._dof = np.array([self.model.jnt_dofadr[joint] for joint in joints])
         # The object's joint is the last one of the model.
-        self._body = hand_model.body_index(self._model, hand_model.OBJECT)
-        tip_body = hand_model.body_index(self._model, hand_model.TIP)
+        self._body = hand_model.body_index(self.model, hand_model.OBJECT)
+        tip_body = hand_model.body_index(self.model, hand_model.TIP)
         solids = solids_of(self._thing, max(self._body, 0), tip_body, config.unevenness_m)
-        self._skin = Skin(self._model, self.layout, solids, config, rng)
-        self.tip = Tip(self._model, self._data, solids[-1], self.layout, config.cover_m)
-        inertia_kg_m2 = float(self._model.body_inertia[self._body].min()) if self._thing else 0.0
+        self._skin = Skin(self.model, self.layout, solids, config, rng)
+        self.tip = Tip(self.model, self.data, solids[-1], self.layout, config.cover_m)
+        inertia_kg_m2 = float(self.model.body_inertia[self._body].min()) if self._thing else 0.0
         self.holder = Holder(self._thing.mass_kg if self._thing else 0.0, inertia_kg_m2)
         self.disturbances = Disturbances(self.weight_n, self.down)
         self.time_s = 0.0
@@ -186,10 +188,10 @@ class HandWorld:
         self.put(config.object_x_m, config.object_y_m, config.object_height_m, held=config.object_held)
         self._give_shafts()
         self._gravity = _GRAVITY_M_S2 * self.down
-        self._model.opt.gravity[:] = self._gravity
-        mujoco.mj_step1(self._model, self._data)
+        self.model.opt.gravity[:] = self._gravity
+        mujoco.mj_step1(self.model, self.data)
         # Compile the kernel now; otherwise that would delay the first step.
-        self._skin.press(self._data, 0.0)
+        self._skin.press(self.data, 0.0)
 
     @property
     def down(self) -> NDArray[np.float64]:
@@ -216,16 +218,6 @@ class HandWorld:
         return self._skin.forces_n
 
     @property
-    def model(self) -> mujoco.MjModel:
-        """MuJoCo's model, for pictures."""
-        return self._model
-
-    @property
-    def data(self) -> mujoco.MjData:
-        """MuJoCo's state, for pictures."""
-        return self._data
-
-    @property
     def has_object(self) -> bool:
         """Whether there is an object."""
         return self._thing is not None
@@ -238,10 +230,10 @@ class HandWorld:
     def hold(self) -> None:
         """Hold the object at its present pose with springs."""
         if self._thing is not None:
-            self.holder.hold(self._data.xpos[self._body], self._data.xquat[self._body])
+            self.holder.hold(self.data.xpos[self._body], self.data.xquat[self._body])
 
     def _require_links(self) -> None:
-        strange = [patch.link for patch in self.layout.patches if hand_model.body_index(self._model, patch.link) < 0]
+        strange = [patch.link for patch in self.layout.patches if hand_model.body_index(self.model, patch.link) < 0]
         if strange:
             links = ", ".join([PALM, *(link.name for link in LINKS)])
             raise SettingsError(
@@ -260,24 +252,24 @@ class HandWorld:
         if self._thing is None:
             return
         where = _require_in_reach(self._thing, x_m, y_m, height_m)
-        self._data.qpos[-7:] = (*where, 1.0, 0.0, 0.0, 0.0)
-        self._data.qvel[-6:] = 0.0
+        self.data.qpos[-7:] = (*where, 1.0, 0.0, 0.0, 0.0)
+        self.data.qvel[-6:] = 0.0
         self._lost = False
         self.disturbances.stop_pulling()
         if held:
             self.holder.hold(where, np.array([1.0, 0.0, 0.0, 0.0]))
         else:
             self.holder.drop()
-        mujoco.mj_step1(self._model, self._data)
+        mujoco.mj_step1(self.model, self.data)
 
     def show(self, truth: HandTruth) -> None:
         """Set the poses of a truth, for a picture; motors and forces on the skin do not change."""
-        data = self._data
+        data = self.data
         data.qpos[self._q] = truth.q_rad
         if self._thing is not None:
-            start = self._model.jnt_qposadr[hand_model.joint_index(self._model, hand_model.OBJECT)]
+            start = self.model.jnt_qposadr[hand_model.joint_index(self.model, hand_model.OBJECT)]
             data.qpos[start : start + 7] = (*truth.object_position_m, *truth.object_quaternion)
-        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_kinematics(self.model, data)
 
     def step(self) -> None:
         """Advance by `STEP_S`.
@@ -287,7 +279,7 @@ class HandWorld:
         ActsError
             When the physics has become unstable.
         """
-        data = self._data
+        data = self.data
         data.qfrc_applied[self._dof] = [motor.step(STEP_S) for motor in self.motors]
         for _ in range(_SUBSTEPS):
             self._substep(STEP_S / _SUBSTEPS)
@@ -298,7 +290,7 @@ class HandWorld:
             self._lost = math.dist(data.qpos[-7:-4].tolist(), _GRASP_MIDDLE_M) > _LOST_M
 
     def _substep(self, dt_s: float) -> None:
-        model, data = self._model, self._data
+        model, data = self.model, self.data
         self.time_s += dt_s
         # Also when nothing shakes: another shake may have ended this one in the middle of a swing.
         model.opt.gravity[:] = self._gravity
@@ -318,22 +310,22 @@ class HandWorld:
             data.qpos[self._q[held]] = [self.motors[k].shaft.position_rad - math.pi for k in held]
 
     def _push_object(self, mass_kg: float, dt_s: float) -> None:
-        data, body = self._data, self._body
+        data, body = self.data, self._body
         wrench = data.xfrc_applied[body]
         wrench[:3] += self.disturbances.load(dt_s)
         if self.holder.holding:
             turn_rad_s = data.xmat[body].reshape(3, 3) @ data.qvel[-3:]
             wrench += self.holder.wrench(data.xpos[body], data.xquat[body], data.qvel[-6:-3], turn_rad_s, dt_s)
-            wrench[:3] -= self.holder.strength * mass_kg * self._model.opt.gravity
+            wrench[:3] -= self.holder.strength * mass_kg * self.model.opt.gravity
         if self._lost:
             # It stays where it is, out of reach.
             data.qvel[-6:] = 0.0
-            wrench[:3] = -mass_kg * self._model.opt.gravity
+            wrench[:3] = -mass_kg * self.model.opt.gravity
             wrench[3:] = 0.0
 
     def _give_shafts(self) -> None:
-        angles = self._data.qpos[self._q].tolist()
-        speeds = self._data.qvel[self._dof].tolist()
+        angles = self.data.qpos[self._q].tolist()
+        speeds = self.data.qvel[self._dof].tolist()
         for motor, angle, speed in zip(self.motors, angles, speeds, strict=True):
             motor.shaft.position_rad = math.pi + angle
             motor.shaft.velocity_rad_s = speed
@@ -345,7 +337,7 @@ class HandWorld:
 
     def truth_row(self) -> NDArray[np.float64]:
         """The present true state as a row, see `acts_sim.hand.truth`; overwritten by the next call."""
-        row, data, body = self._row, self._data, self._body
+        row, data, body = self._row, self.data, self._body
         row[COLUMN["time_s"]] = self.time_s
         if body >= 0:
             row[COLUMN["object_position_m"]] = data.qpos[-7:-4]
@@ -355,7 +347,7 @@ class HandWorld:
         row[COLUMN["object_held"]] = self.holder.holding
         row[COLUMN["object_lost"]] = self._lost
         row[COLUMN["load_n"]] = self.disturbances.load_n
-        row[COLUMN["gravity_m_s2"]] = self._model.opt.gravity
+        row[COLUMN["gravity_m_s2"]] = self.model.opt.gravity
         row[COLUMN["tip_depth_m"]] = self.tip.depth_m
         row[COLUMN["tip_patch"]] = self._patch_index.get(self.tip.patch, -1)
         row[COLUMN["q_rad"]] = data.qpos[self._q]
