@@ -8,10 +8,10 @@ from __future__ import annotations
 import queue
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import replace
 
-from acts_core.errors import PortError
+from acts_core.errors import ActsError, PortError
 from acts_core.frames import SampleFrame
 from acts_core.wire import BoardSettings, BoardState
 from acts_driver.board import BoardLink, NoAnswerError, NotHeardError, RefusedError, UnknownAnswerError
@@ -108,14 +108,20 @@ class BoardReader:
             The board does not reply, or its port was lost.
         """
         wanted = replace(own, scheme="raster", output="samples", frame_period_us=0)
+        was_lost = False
         try:
             try:
                 in_force = self._link.configure(wanted).state.settings
             except RefusedError:
                 in_force = own
             yield in_force
+        except PortError:
+            was_lost = True
+            raise
         finally:
-            self._link.configure(own)
+            # That the port was lost says more than that nobody takes settings there now.
+            with suppress(ActsError) if was_lost else nullcontext():
+                self._link.configure(own)
 
     def first_frame(self) -> SampleFrame:
         """The next frame, after a few that may have been measured with other settings.

@@ -120,6 +120,29 @@ def test_the_board_gets_its_settings_back_even_when_interrupted(tmp_path: Path) 
         assert settings() == own
 
 
+def test_a_board_that_is_unplugged_is_told_so(tmp_path: Path) -> None:
+    control = tmp_path / "control"
+    with virtual_board(tmp_path, "--control", str(control)) as board:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "acts_tools", "selftest", str(board.link), "--untouched-s", "100"],
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        )
+        assert process.stderr is not None
+        try:
+            assert "leave the skin alone" in process.stderr.readline()
+            control.write_text("unplug:60\n")
+            said = process.communicate(timeout=DEADLINE_S)[1]
+        finally:
+            process.kill()
+            process.wait()
+    # Not that it does not get its settings back: without power it has those that it starts with.
+    assert said.startswith(f"error: port {board.link}")
+    assert said.endswith("start the test again\n")
+    assert process.returncode == 1
+
+
 def test_a_board_that_is_not_touched_and_one_that_is_no_board(tmp_path: Path) -> None:
     _, levels, report = selftest(tmp_path, "--sim", "--no-touch", "--untouched-s", "1", "--rows", "8", "--cols", "5")
     assert levels["high taxels"] == "PASS"
