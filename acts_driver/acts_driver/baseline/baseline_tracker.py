@@ -41,7 +41,7 @@ class Drift(NamedTuple):
 
 
 class Calibration(NamedTuple):
-    """A calibration: the baseline since then, and how many taxels were measured for it; the others stay as before."""
+    """A calibration: the baseline since then, and how many taxels were measured for it."""
 
     baseline: Baseline
     measured: int
@@ -53,9 +53,10 @@ class Calibration(NamedTuple):
         done = f"calibrated {self.measured} of {valid.size} taxels, noise {noise:.2f} counts (median)"
         if self.measured == valid.size:
             return done
+        stay = "stay as they were" if valid.sum() > self.measured else "have no baseline"
         return (
-            f"{done}; the other {valid.size - self.measured} had fewer than {LEAST_READINGS} readings and stay as "
-            "they were: the schemes raster and uniform measure all"
+            f"{done}; the other {valid.size - self.measured} had fewer than {LEAST_READINGS} readings and {stay}: the "
+            "schemes raster and uniform measure all"
         )
 
 
@@ -172,10 +173,13 @@ class BaselineTracker:
                 baseline.source,
             )
 
-    def calibrate(self) -> Calibration:
+    def calibrate(self, *, keeps_others: bool = True) -> Calibration:
         """Determine baseline and noise from the last seconds, in which the skin must have been untouched.
 
-        Taxels with too few readings in that time keep their baseline.
+        Parameters
+        ----------
+        keeps_others : bool
+            Whether taxels with too few readings in that time keep their baseline; False where that is of another skin.
 
         Raises
         ------
@@ -196,7 +200,8 @@ class BaselineTracker:
                     f"no taxel was measured {LEAST_READINGS} times in the last "
                     f"{needed * self.config.tare_s:g} s: raise the frame rate"
                 )
-            touched = self._touched(readings)
+            known = (self._freeze >= 0) & keeps_others
+            touched = self._touched(readings, known)
             if touched.any():
                 row, col = divmod(int(np.flatnonzero(touched)[0]), self._shape[1])
                 raise CalibrationError(
@@ -204,7 +209,6 @@ class BaselineTracker:
                     f"{col}. Leave it alone for {(needed + 1) * self.config.tare_s:g} s and call again; where nothing "
                     "touches it, tare first"
                 )
-            known = self._freeze >= 0
             self._set(
                 np.where(measured, readings.mean, self._baseline),
                 np.where(measured, readings.deviation, self._noise),
@@ -213,10 +217,14 @@ class BaselineTracker:
             )
             return Calibration(self._present(), int(measured.sum()))
 
-    def tare(self) -> Tare:
+    def tare(self, *, keeps_others: bool = True) -> Tare:
         """Tare: set the baseline to the present readings, whatever lies on the skin; noise that is known stays.
 
-        Taxels without a recent reading keep their baseline.
+        Parameters
+        ----------
+        keeps_others : bool
+            Whether taxels without a recent reading keep their baseline; False where that, and the noise, is of another
+            skin.
 
         Raises
         ------
@@ -232,7 +240,7 @@ class BaselineTracker:
             measured = readings.n > 0
             changed = readings.span > self.config.touch_counts
             unsteady = self._beside_others(changed)
-            known = self._freeze >= 0
+            known = (self._freeze >= 0) & keeps_others
             self._set(
                 np.where(measured, readings.mean, self._baseline),
                 np.where(known, self._noise, noise_of(readings, ~changed)),
@@ -321,11 +329,11 @@ class BaselineTracker:
             _LARGEST_STEP,
         )
 
-    def _touched(self, readings: Readings) -> NDArray[np.bool_]:
+    def _touched(self, readings: Readings, known: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Taxels that were pressed, or let go, in the time of these readings. One alone is a broken taxel, no touch."""
-        known = np.where(self._freeze >= 0, self._baseline, 0.0)
+        untouched = np.where(known, self._baseline, 0.0)
         limit = self.config.touch_counts
-        return self._beside_others((readings.n > 0) & ((readings.mean - known > limit) | (readings.span > limit)))
+        return self._beside_others((readings.n > 0) & ((readings.mean - untouched > limit) | (readings.span > limit)))
 
     def _beside_others(self, suspicious: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Those of these taxels that are not alone. Dead ones say nothing, whatever they read."""

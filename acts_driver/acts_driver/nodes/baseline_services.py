@@ -199,7 +199,8 @@ class BaselineServices:
     def _calibrate(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             self._require_frames()
-            calibration = self._tracker.calibrate()
+            forgotten = self._forgotten()
+            calibration = self._tracker.calibrate(keeps_others=not forgotten)
         except ActsError as error:
             return self._answer(response, False, str(error))
         baseline = replace(calibration.baseline, board_id=self._board_id)
@@ -213,7 +214,7 @@ class BaselineServices:
         except ActsError as error:
             return self._answer(response, False, f"calibrated until the driver ends, but not stored: {error}")
         stored = "" if self._path is None else f"; stored in {self._path}"
-        return self._answer(response, True, f"{calibration}{stored}")
+        return self._answer(response, True, f"{calibration}{forgotten}{stored}")
 
     def _store(self, baseline: Baseline, path: Path) -> None:
         """Write the file, after an older calibration that a slow disk holds up, and not after a newer one."""
@@ -224,12 +225,19 @@ class BaselineServices:
     def _tare(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             self._require_frames()
-            tare = self._tracker.tare()
+            forgotten = self._forgotten()
+            tare = self._tracker.tare(keeps_others=not forgotten)
         except ActsError as error:
             return self._answer(response, False, str(error))
         self._baseline_board_id = self._board_id
         self._publish(tare.baseline)
-        return self._answer(response, True, str(tare))
+        return self._answer(response, True, f"{tare}{forgotten}")
+
+    def _forgotten(self) -> str:
+        """That nothing is kept of the baseline where it is of another board's skin; empty where it may be kept."""
+        if not self.problem:
+            return ""
+        return f"; what was known of the skin of board {self._baseline_board_id} is forgotten"
 
     def _require_frames(self) -> None:
         """Raise where no frames arrive: the remembered ones do not show the present skin."""

@@ -18,6 +18,7 @@ from acts_core.frames import SampleFrame, Scheme
 from acts_core.skin import layout
 from acts_driver.baseline import Baseline, BaselineTracker, baseline_kernels
 from acts_driver.baseline.baseline import BaselineSource
+from acts_driver.baseline.baseline_tracker import Calibration
 
 
 @pytest.mark.parametrize("m", [SIZE, 7])
@@ -147,6 +148,29 @@ def test_taxels_that_are_not_measured_are_not_told_to_be_calibrated_or_tared() -
     tare = skin.tracker.tare()
     assert str(tare) == "tared 1 of 30 taxels"
     assert tare.baseline.valid.all()
+
+
+def test_what_is_known_of_another_skin_can_be_left_out_of_a_tare_and_of_a_calibration() -> None:
+    for determine in (BaselineTracker.tare, BaselineTracker.calibrate):
+        skin = Skin()
+        skin.run(2.5)
+        skin.tracker.calibrate()
+        # Another skin, of which one taxel is measured; the one before read 20 there, which is no touch of this one.
+        skin.field[:] = 70.0
+        skin.m = 1
+        skin.frames = 0
+        for _ in range(250):
+            skin.run(0.01)
+            skin.frames = 0
+        determined = determine(skin.tracker, keeps_others=False)
+        if isinstance(determined, Calibration):
+            others = "; the other 29 had fewer than 8 readings and have no baseline: the schemes raster and uniform"
+            assert others in str(determined)
+        baseline = determined.baseline
+        assert baseline.valid.ravel().tolist() == [True] + [False] * (SIZE - 1)
+        assert baseline.counts[0, 0] == pytest.approx(70.0, abs=1.5)
+        assert not baseline.counts.ravel()[1:].any()
+        assert baseline.noise_counts[0, 0] == pytest.approx(1.5, rel=0.25)
 
 
 def test_tare_takes_what_lies_on_the_skin_for_zero() -> None:

@@ -124,17 +124,22 @@ def test_a_baseline_of_another_board_is_told_until_the_skin_is_tared(rig: Rig, t
         told = rig.status_until(lambda status: status["message"].startswith(words), "what is wrong with the baseline")
         assert (told["level"], told["baseline_board"], told["board"]) == ("1", "7", "8")
         client = rig.listener.create_client(Trigger, "driver/tare")
+        answers: list[str] = []
 
         def tared() -> bool:
             # Refused where this machine has just stood still.
             answer = client.call_async(Trigger.Request())
             rig.spin_until(answer.done, "the answer")
+            answers.append(answer.result().message)
             return bool(answer.result().success)
 
         rig.spin_until(tared, "a tare")
         told = rig.status_until(lambda status: status.get("baseline") == "tare", "the report after it")
         assert "the baseline is of" not in told["message"]
         assert told["baseline_board"] == "8"
+        # Five taxels are in a frame. Of the others nothing is known of this skin.
+        assert 5 <= int(told["baseline_taxels"]) < 1024
+        assert answers[-1].endswith("; what was known of the skin of board 7 is forgotten")
         board.end()
 
 
