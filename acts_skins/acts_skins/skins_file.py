@@ -201,6 +201,7 @@ def read_skins(path: Path) -> SkinsFile:
         if skin.name in frames:
             raise skin.section.error("a frame of this file has the same name")
     _check_ports(skins)
+    _check_calibration_files(skins)
     base_frame = top.text("base_frame", "base_link")
     assert base_frame is not None
     if not is_frame_name(base_frame):
@@ -319,18 +320,40 @@ def _check_ports(skins: tuple[Skin, ...]) -> None:
         )
 
 
+def _check_calibration_files(skins: tuple[Skin, ...]) -> None:
+    """Refuse a file that two skins would read, and write in turns: each has a baseline of its own."""
+    users: dict[str, Skin] = {}
+    for skin in skins:
+        text = skin.driver.get("calibration_file")
+        # What is no text is refused with the other parameters.
+        if not isinstance(text, str) or not is_given(text):
+            continue
+        section = skin.section.section("driver", f"{skin.section.what}: driver")
+        path = _resolved(section, "calibration_file", text)
+        if path in users:
+            raise section.error(
+                f"calibration_file = {text}: skin {users[path].name} has this file already, and each skin has a "
+                "baseline of its own: name another file",
+                "calibration_file",
+            )
+        users[path] = skin
+
+
 def _device(skin: Skin) -> str:
     """What a port is told from others by: symbolic links, such as those in /dev/serial/by-id, are resolved."""
     assert skin.port is not None
     if skin.port.startswith(SERIAL_PREFIX):
         # Blanks around the number do not matter to the driver either.
         return SERIAL_PREFIX + skin.port.removeprefix(SERIAL_PREFIX).strip()
-    if not skin.port.startswith("/"):
-        return skin.port
+    return _resolved(skin.section, "port", skin.port) if skin.port.startswith("/") else skin.port
+
+
+def _resolved(section: Section, key: str, text: str) -> str:
+    """The path that a key names, without symbolic links."""
     try:
-        device = Path(skin.port).resolve()
-        if device.is_symlink():  # of links in a circle; from Python 3.13 on `resolve` leaves one of them
-            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), skin.port)
-        return str(device)
+        path = Path(text).resolve()
+        if path.is_symlink():  # of links in a circle; from Python 3.13 on `resolve` leaves one of them
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), text)
+        return str(path)
     except (OSError, ValueError, RuntimeError) as error:
-        raise skin.section.error(f"port = {skin.port!r}: {error}", "port") from None
+        raise section.error(f"{key} = {text!r}: {error}", key) from None

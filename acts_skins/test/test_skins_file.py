@@ -250,6 +250,22 @@ def test_two_names_of_one_device_are_one_port(tmp_path: Path) -> None:
         read(tmp_path, text)
 
 
+@pytest.mark.parametrize("second", ["left.npz", "../dev/left.npz", "link.npz"])
+def test_one_calibration_file_for_two_skins_is_refused(tmp_path: Path, second: str) -> None:
+    folder = tmp_path / "dev"
+    folder.mkdir()
+    (folder / "link.npz").symlink_to(folder / "left.npz")
+    text = (
+        f"skins:\n  a: {{{POSE}, driver: {{calibration_file: left.npz}}}}\n"
+        f"  b: {{{POSE}, driver: {{calibration_file: {second}}}}}"
+    )
+    with pytest.raises(SettingsError, match=r"skins\.yaml:3: skin b: driver: calibration_file") as caught:
+        read(folder, text)
+    assert "skin a has this file already" in str(caught.value)
+    # Skins without one have none in common.
+    assert len(read(folder, text.replace("left.npz", "none").replace(second, "none")).skins) == 2
+
+
 @pytest.mark.parametrize(
     ("given", "port"),
     [
