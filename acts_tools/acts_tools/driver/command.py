@@ -80,7 +80,9 @@ def run(arguments: argparse.Namespace) -> int:
     elif is_set:
         request = SetParametersAtomically.Request()
         request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
-        result = _call(SetParametersAtomically, f"{node}/set_parameters_atomically", request).result
+        # All nodes have that service: what may be meant is another driver, not the service of another node.
+        service = f"{node}/set_parameters_atomically"
+        result = _call(SetParametersAtomically, service, request, node_name=node).result
         succeeded, words = result.successful, result.reason or "set: " + ", ".join(arguments.values)
     else:
         response = _call(Trigger, f"{node}/{_SERVICES[arguments.what]}", Trigger.Request())
@@ -146,7 +148,7 @@ _ABSOLUTE = {"model": _absolute_model, "layout": _absolute_layout}
 """What a driver, which has another working directory, is told of parameters that name a file."""
 
 
-def _call(kind: Any, name: str, request: Any) -> Any:
+def _call(kind: Any, name: str, request: Any, node_name: str = "") -> Any:
     from rclpy.executors import SingleThreadedExecutor
 
     from acts_tools.running.calls import call
@@ -154,4 +156,4 @@ def _call(kind: Any, name: str, request: Any) -> Any:
 
     with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
         limits: dict[str, Any] = {"found_s": FOUND_S, "answer_s": ANSWER_S}
-        return call(node, executor, kind, name, request, who="driver", error=BoardError, **limits)
+        return call(node, executor, kind, name, request, who="driver", error=BoardError, node_name=node_name, **limits)

@@ -94,6 +94,11 @@ def test_a_node_is_not_likened_to_others_for_the_service_that_all_have(
     told = capfd.readouterr().err
     assert "no node offers /nosuch/list_parameters" in told
     assert "did you mean" not in told
+    # Another node takes parameters, too, but it is no driver.
+    assert main(["driver", "-n", "plate", "set", "m=64"]) == 1
+    told = capfd.readouterr().err
+    assert "no driver offers /plate/driver/set_parameters_atomically" in told
+    assert "did you mean" not in told
 
 
 @pytest.mark.parametrize(
