@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from acts_core.errors import ActsError, BoardError, PortError
+from acts_core.errors import ActsError, ArrayError, BoardError, PortError, SettingsError
 from acts_core.runtime import LogCallback
 from acts_core.settings import is_given
 from acts_core.wire import BoardModel, BoardSettings, BoardState, ReplyStatus
@@ -293,6 +293,16 @@ class BoardSession:
 
     def _bring(self, state: BoardState) -> None:
         """Send what differs between a state of the board and the parameters."""
+        try:
+            self._send(state)
+        except (SettingsError, ArrayError) as error:
+            # What is made for the size of the parameters fits no board of another one, which is to be told then.
+            problem = self._wrong_size(state)
+            if problem:
+                raise BoardError(problem) from error
+            raise
+
+    def _send(self, state: BoardState) -> None:
         assert self._own is not None
         wanted = self._parameters.wanted(self._own)
         if state.settings != wanted and self._settled != (wanted, state.settings):
@@ -348,20 +358,25 @@ class BoardSession:
     def _file_of(self, parameters: BoardParameters) -> BoardModelFile | None:
         return BoardModelFile(Path(parameters.model), self.wake) if is_given(parameters.model) else None
 
-    def _mismatch(self, state: BoardState) -> str:
+    def _wrong_size(self, state: BoardState) -> str:
+        """That the board has another size than expected, in words; empty where it has not."""
         settings = state.settings
-        if (settings.rows, settings.cols) != self._size:
-            return (
-                f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
-                f"{self._size[0]} x {self._size[1]}: set them alike"
-            )
+        if (settings.rows, settings.cols) == self._size:
+            return ""
+        return (
+            f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
+            f"{self._size[0]} x {self._size[1]}: set them alike"
+        )
+
+    def _mismatch(self, state: BoardState) -> str:
+        wrong_size, output = self._wrong_size(state), state.settings.output
+        if wrong_size:
+            return wrong_size
         if self._model is not None and self._model.problem:
             return self._model.problem
         # One that is being read, or is another than the board's, is on its way, also while the board is not heard.
         if state.samples_only and (self._model is None or self._model.is_read_as(state.model.crc32)):
-            return (
-                f"the board holds no model for output {settings.output}, it sends samples only: set the parameter model"
-            )
+            return f"the board holds no model for output {output}, it sends samples only: set the parameter model"
         return ""
 
     def _set(self, status: BoardStatus) -> None:

@@ -234,6 +234,20 @@ def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
     assert "the board measures 32 x 32 taxels, the parameters rows and cols say 16 x 24" in session.status.problem
 
 
+@pytest.mark.parametrize("wanted", [{"layout": "leap_right"}, {"dead_taxels": "row=20"}, {"m": 300}])
+def test_of_a_board_of_another_size_the_size_is_told_not_what_does_not_fit_it(
+    tmp_path: Path, wanted: dict[str, object]
+) -> None:
+    sizes = "the board measures 16 x 16 taxels, the parameters rows and cols say 32 x 32"
+    with VirtualBoard(tmp_path / "board", "--rows", "16", "--cols", "16") as board:
+        host = Host(board.link)
+        session = host.start_session(SIZE, **wanted)
+        wait_for(lambda: sizes in session.status.problem, "the problem")
+        with pytest.raises(BoardError, match=sizes):
+            session.change(BoardParameters(**wanted))  # type: ignore[arg-type]
+        host.close()
+
+
 def test_a_silent_board_may_be_listened_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = [0]
     query = BoardLink.query
