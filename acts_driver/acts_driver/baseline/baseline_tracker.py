@@ -51,13 +51,7 @@ class Calibration(NamedTuple):
         valid, noise_counts = self.baseline.valid, self.baseline.noise_counts
         noise = float(np.median(noise_counts[valid]))
         done = f"calibrated {self.measured} of {valid.size} taxels, noise {noise:.2f} counts (median)"
-        if self.measured == valid.size:
-            return done
-        stay = "stay as they were" if valid.sum() > self.measured else "have no baseline"
-        return (
-            f"{done}; the other {valid.size - self.measured} had fewer than {LEAST_READINGS} readings and {stay}: the "
-            "schemes raster and uniform measure all"
-        )
+        return done + _of_others(valid, self.measured, f"fewer than {LEAST_READINGS} readings")
 
 
 class Tare(NamedTuple):
@@ -69,10 +63,19 @@ class Tare(NamedTuple):
 
     def __str__(self) -> str:
         """What was done, for the one who asked for it."""
-        done = f"tared {self.measured} of {self.baseline.valid.size} taxels"
-        if not self.unsteady:
-            return done
-        return f"{done}, but {self.unsteady} of them changed meanwhile: keep what lies on the skin still and tare again"
+        valid = self.baseline.valid
+        done = f"tared {self.measured} of {valid.size} taxels"
+        if self.unsteady:
+            done += f", but {self.unsteady} of them changed meanwhile: keep what lies on the skin still and tare again"
+        return done + _of_others(valid, self.measured, "no reading")
+
+
+def _of_others(valid: NDArray[np.bool_], measured: int, readings: str) -> str:
+    """What became of the taxels that were not measured enough; empty where there are none."""
+    if measured == valid.size:
+        return ""
+    stay = "stay as they were" if valid.sum() > measured else "have no baseline"
+    return f"; the other {valid.size - measured} had {readings} and {stay}: the schemes raster and uniform measure all"
 
 
 class BaselineTracker:

@@ -146,7 +146,8 @@ def test_taxels_that_are_not_measured_are_not_told_to_be_calibrated_or_tared() -
     others = "(median); the other 29 had fewer than 8 readings and stay as they were: the schemes raster and uniform"
     assert told.endswith(f"{others} measure all")
     tare = skin.tracker.tare()
-    assert str(tare) == "tared 1 of 30 taxels"
+    others = "the other 29 had no reading and stay as they were: the schemes raster and uniform measure all"
+    assert str(tare) == f"tared 1 of 30 taxels; {others}"
     assert tare.baseline.valid.all()
 
 
@@ -163,9 +164,8 @@ def test_what_is_known_of_another_skin_can_be_left_out_of_a_tare_and_of_a_calibr
             skin.run(0.01)
             skin.frames = 0
         determined = determine(skin.tracker, keeps_others=False)
-        if isinstance(determined, Calibration):
-            others = "; the other 29 had fewer than 8 readings and have no baseline: the schemes raster and uniform"
-            assert others in str(determined)
+        few = "fewer than 8 readings" if isinstance(determined, Calibration) else "no reading"
+        assert f"; the other 29 had {few} and have no baseline: the schemes raster and uniform" in str(determined)
         baseline = determined.baseline
         assert baseline.valid.ravel().tolist() == [True] + [False] * (SIZE - 1)
         assert baseline.counts[0, 0] == pytest.approx(70.0, abs=1.5)
