@@ -174,10 +174,7 @@ def _phases(
     rows, cols = first.rows, first.cols
     _tell(f"leave the skin alone for {arguments.untouched_s:g} s")
     record = board.record(rows, cols, arguments.untouched_s, lambda record: None)
-    if len(record.frames) < 2:
-        raise ActsError(
-            f"{counted(len(record.frames), 'frame')} in {arguments.untouched_s:g} s: give a longer --untouched-s"
-        )
+    _require_two_frames(record, arguments.untouched_s, "--untouched-s")
     untouched = measure_untouched(record)
     timing = measure_timing(record, has_board_clock=board.has_board_clock, frame_period_us=frame_period_us)
     findings = [*judge_timing(timing, thresholds), *judge_untouched(untouched, thresholds)]
@@ -190,10 +187,20 @@ def _phases(
         pressing: AbstractContextManager[None] = nullcontext() if skin is None else skin.rolled(rows, cols, seconds)
         with pressing:
             touched = board.record(rows, cols, seconds, _Countdown(seconds))
+        _require_two_frames(touched, seconds, "--touch-s")
         touch = measure_touched(touched, untouched, thresholds)
         findings += judge_touched(touch, untouched, thresholds)
     name = (board.name if skin is None else "the virtual board") + who
     return SelfTest(name, rows, cols, first.scheme.name.lower(), thresholds, findings, untouched, timing, touch)
+
+
+def _require_two_frames(record: FrameRecord, seconds: float, option: str) -> None:
+    n = len(record.frames)
+    if n < 2:
+        raise ActsError(
+            f"{counted(n, 'frame')} in {seconds:g} s: give a longer {option}; a board that sends more often has fallen "
+            "silent: start it anew"
+        )
 
 
 def _tell(words: str) -> None:

@@ -22,6 +22,9 @@ from acts_driver.selftest import FrameRecord
 _REPLY_S = 0.5
 _TRIES = 4
 _SILENT_S = 5.0
+# At the end of a record so long, half of it, and so many intervals between its frames: the board hangs.
+_HUNG_S = 2.0
+_HUNG_INTERVALS = 5.0
 _SETTLE_FRAMES = 3
 _LOOK_S = 0.1
 
@@ -152,6 +155,11 @@ class BoardReader:
         seconds : float
         on_frame : callable
             Called with the record so far after every frame.
+
+        Raises
+        ------
+        PortError
+            The port was lost, or the board fell silent before the end.
         """
         record = FrameRecord(rows, cols)
         end_s = time.monotonic() + seconds
@@ -162,6 +170,15 @@ class BoardReader:
                 on_frame(record)
 
         self._read_while(lambda: time.monotonic() < end_s, take, seconds)
+        if len(record.frames) > 1:
+            first_ns, last_ns = record.arrivals_ns[0], record.arrivals_ns[-1]
+            silent_s = (time.time_ns() - last_ns) * 1e-9
+            interval_s = (last_ns - first_ns) * 1e-9 / (len(record.frames) - 1)
+            if silent_s > max(_HUNG_S, seconds / 2, _HUNG_INTERVALS * interval_s):
+                raise PortError(
+                    f"no frames from {self.name} for {silent_s:.0f} s: it has fallen silent; start it anew, and then "
+                    "the test"
+                )
         return record
 
     def _read_while(

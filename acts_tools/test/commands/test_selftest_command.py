@@ -143,6 +143,31 @@ def test_a_board_that_is_unplugged_is_told_so(tmp_path: Path) -> None:
     assert process.returncode == 1
 
 
+@pytest.mark.parametrize("phase", ["leave the skin alone", "now roll a hand"])
+def test_of_a_board_that_falls_silent_the_skin_is_not_judged(tmp_path: Path, phase: str) -> None:
+    control = tmp_path / "control"
+    words = ["--protocol", "raster_ascii", "--rows", "8", "--cols", "8", "--untouched-s", "4", "--touch-s", "4"]
+    with virtual_board(tmp_path, *words[:6], "--m", "64", "--control", str(control)) as board:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "acts_tools", "selftest", str(board.link), *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        )
+        assert process.stderr is not None
+        try:
+            assert any(phase in line for line in process.stderr)
+            control.write_text("freeze:3600\n")
+            out, said = process.communicate(timeout=DEADLINE_S)
+        finally:
+            process.kill()
+            process.wait()
+    assert "has fallen silent" in said
+    assert out == ""
+    assert process.returncode == 1
+
+
 def test_a_board_that_is_not_touched_and_one_that_is_no_board(tmp_path: Path) -> None:
     _, levels, report = selftest(tmp_path, "--sim", "--no-touch", "--untouched-s", "1", "--rows", "8", "--cols", "5")
     assert levels["high taxels"] == "PASS"
