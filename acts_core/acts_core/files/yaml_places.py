@@ -54,7 +54,9 @@ class Section:
     def error(self, message: str, key: str | None = None) -> SettingsError:
         """An error that begins with file, line and what the section is about; `key`: the key whose line it is."""
         keys = self._keys if key is None else (*self._keys, key)
-        line = self._lines.get(keys, self._lines.get(self._keys, 1))
+        # What an alias or a merge key brings has no line of its own: that of the mapping around it.
+        around = (keys[:n] for n in range(len(keys), -1, -1))
+        line = next((self._lines[place] for place in around if place in self._lines), 1)
         about = f"{self.what}: " if self.what else ""
         return SettingsError(f"{self.path}:{line}: {about}{message}")
 

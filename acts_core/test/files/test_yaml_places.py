@@ -71,3 +71,13 @@ def test_a_value_that_is_not_what_its_tag_says_is_refused_with_its_line(value: s
     with pytest.raises(SettingsError, match=f"not valid YAML: {words}") as caught:
         read_yaml(tmp_path / "x.yaml")
     assert "line 2" in str(caught.value)
+
+
+@pytest.mark.parametrize("second", ["b: *first", "b: {<<: *first}"])
+def test_what_an_alias_brings_goes_by_the_line_of_what_it_is_in(second: str, tmp_path: Path) -> None:
+    (tmp_path / "x.yaml").write_text(f"all:\n  a: &first\n    inner: {{n: x}}\n  {second}\n")
+    top = read_yaml(tmp_path / "x.yaml")
+    for name, line in (("a", 3), ("b", 4)):
+        inner = top.section("all", "").section(name, "").section("inner", "")
+        with pytest.raises(SettingsError, match=f"x.yaml:{line}: n = 'x': needed is a whole number"):
+            inner.whole("n")
