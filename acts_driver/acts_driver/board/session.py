@@ -285,11 +285,12 @@ class BoardSession:
     def _has_begun_anew(self, state: BoardState, asked_s: float) -> bool:
         """Whether the board was replaced or reset since the last state, and so has lost its settings."""
         seen = self._seen
-        if seen is None or seen.board_id != state.board_id or state.uptime_us < seen.uptime_us:
+        # Nobody tells a board its size.
+        if seen is None or seen.board_id != state.board_id or _size_of(seen) != _size_of(state):
             return True
         # At least: a busy machine reads answers late.
-        passed_s = asked_s - self._seen_s
-        return passed_s - (state.uptime_us - seen.uptime_us) * 1e-6 > _SAME_START_S + _DRIFT_MAX * passed_s
+        passed_s, later_s = asked_s - self._seen_s, (state.uptime_us - seen.uptime_us) * 1e-6
+        return later_s < 0 or passed_s - later_s > _SAME_START_S + _DRIFT_MAX * passed_s
 
     def _bring(self, state: BoardState) -> None:
         """Send what differs between a state of the board and the parameters."""
@@ -360,12 +361,12 @@ class BoardSession:
 
     def _wrong_size(self, state: BoardState) -> str:
         """That the board has another size than expected, in words; empty where it has not."""
-        settings = state.settings
-        if (settings.rows, settings.cols) == self._size:
+        (rows, cols), (own_rows, own_cols) = _size_of(state), self._size
+        if (rows, cols) == self._size:
             return ""
         return (
-            f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
-            f"{self._size[0]} x {self._size[1]}: set them alike"
+            f"the board measures {rows} x {cols} taxels, the parameters rows and cols say {own_rows} x {own_cols}: "
+            "set them alike"
         )
 
     def _mismatch(self, state: BoardState) -> str:
@@ -394,3 +395,7 @@ class BoardSession:
         if problem and problem != self._told:
             self._log(level, problem)
         self._told = problem
+
+
+def _size_of(state: BoardState) -> tuple[int, int]:
+    return state.settings.rows, state.settings.cols

@@ -162,6 +162,18 @@ def test_what_a_board_is_told_that_was_reset_in_the_midst_of_the_dialogue_is_not
     assert link.settings.m == 55
 
 
+def test_a_board_of_another_size_in_the_place_of_one_that_had_just_started_keeps_its_size() -> None:
+    link = OtherLink()
+    link.settings, link.started_s = BoardSettings(rows=16, cols=16, m=20), time.monotonic()
+    session = BoardSession(link, BoardParameters(led="on"), size=SIZE, log=lambda level, words: None)
+    session.change(BoardParameters(led="on"))
+    session.ask()
+    # A simulated one that is started again, with other options: up for a little longer than the one before when seen.
+    link.settings = BoardSettings(m=55)
+    session.change(BoardParameters(led="off"))
+    assert link.settings == BoardSettings(m=55, led="off")
+
+
 class RefusingLink(OtherLink):
     """A way to an imagined board that takes no settings."""
 
