@@ -20,7 +20,7 @@ from acts_driver.board.layout import BoardLayout
 from acts_driver.board.model_file import BoardModelFile
 from acts_driver.board.parameters import BoardParameters
 from acts_driver.board.status import BoardStatus
-from acts_driver.board.words import another_board, other_version, settings_in_words
+from acts_driver.board.words import another_board, other_size, other_version, settings_in_words
 
 FIRMWARE = (0, 1)
 """Major and minor version of the firmware that this driver belongs to; any patch version will do."""
@@ -286,7 +286,7 @@ class BoardSession:
         """Whether the board was replaced or reset since the last state, and so has lost its settings."""
         seen = self._seen
         # Nobody tells a board its size.
-        if seen is None or seen.board_id != state.board_id or _size_of(seen) != _size_of(state):
+        if seen is None or seen.board_id != state.board_id or not _are_of_one_size(seen, state):
             return True
         # At least: a busy machine reads answers late.
         passed_s, later_s = asked_s - self._seen_s, (state.uptime_us - seen.uptime_us) * 1e-6
@@ -298,7 +298,7 @@ class BoardSession:
             self._send(state)
         except (SettingsError, ArrayError) as error:
             # What is made for the size of the parameters fits no board of another one, which is to be told then.
-            problem = self._wrong_size(state)
+            problem = other_size(state.settings, self._size)
             if problem:
                 raise BoardError(problem) from error
             raise
@@ -359,18 +359,8 @@ class BoardSession:
     def _file_of(self, parameters: BoardParameters) -> BoardModelFile | None:
         return BoardModelFile(Path(parameters.model), self.wake) if is_given(parameters.model) else None
 
-    def _wrong_size(self, state: BoardState) -> str:
-        """That the board has another size than expected, in words; empty where it has not."""
-        (rows, cols), (own_rows, own_cols) = _size_of(state), self._size
-        if (rows, cols) == self._size:
-            return ""
-        return (
-            f"the board measures {rows} x {cols} taxels, the parameters rows and cols say {own_rows} x {own_cols}: "
-            "set them alike"
-        )
-
     def _mismatch(self, state: BoardState) -> str:
-        wrong_size, output = self._wrong_size(state), state.settings.output
+        wrong_size, output = other_size(state.settings, self._size), state.settings.output
         if wrong_size:
             return wrong_size
         if self._model is not None and self._model.problem:
@@ -397,5 +387,5 @@ class BoardSession:
         self._told = problem
 
 
-def _size_of(state: BoardState) -> tuple[int, int]:
-    return state.settings.rows, state.settings.cols
+def _are_of_one_size(one: BoardState, other: BoardState) -> bool:
+    return (one.settings.rows, one.settings.cols) == (other.settings.rows, other.settings.cols)

@@ -34,6 +34,17 @@ def other_version(version: tuple[int, int, int], needed: tuple[int, int]) -> str
     )
 
 
+def other_size(settings: BoardSettings, expected: tuple[int, int]) -> str:
+    """That the board has another size than expected, rows and cols; empty where it has not."""
+    if (settings.rows, settings.cols) == expected:
+        return ""
+    rows, cols = expected
+    return (
+        f"the board measures {settings.rows} x {settings.cols} taxels, the parameters rows and cols say "
+        f"{rows} x {cols}: set them alike"
+    )
+
+
 def another_board(before: BoardState, now: BoardState) -> str:
     """That the port leads to another board than before."""
     return (
