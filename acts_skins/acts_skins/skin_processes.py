@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+
 from acts_core.errors import SettingsError
 from acts_core.files import require_regular
 from acts_driver.settings import DriverSettings
@@ -82,7 +84,7 @@ class SkinProcesses:
         words += ["--board-id", f"{_FIRST_BOARD_ID + number}"]
         if skin.recording is not None:
             try:
-                require_regular(skin.recording, error=SettingsError)
+                _require_frames(skin.recording, driver.rows, driver.cols)
             except SettingsError as error:
                 raise skin.section.error(f"recording = {error}", "recording") from None
             words += ["--recording", f"{skin.recording}", "--recording-rate-hz", f"{skin.recording_rate_hz}", "--loop"]
@@ -119,6 +121,19 @@ class SkinProcesses:
             respawn=True,
             respawn_delay_s=_RESPAWN_DELAY_S,
         )
+
+
+def _require_frames(path: Path, rows: int, cols: int) -> None:
+    """Refuse what the simulated board would refuse to play, by when other skins would have begun."""
+    require_regular(path, error=SettingsError)
+    needed = f"needed are one or more frames (n, rows = {rows}, cols = {cols}) of type uint16 in C order"
+    try:
+        frames = np.lib.format.open_memmap(path, mode="r")
+    except (OSError, ValueError) as error:
+        raise SettingsError(f"{path}: no .npy file of frames ({error}); {needed}") from None
+    fits = frames.size and frames.shape[1:] == (rows, cols)
+    if not fits or frames.dtype != "<u2" or not frames.flags.c_contiguous:
+        raise SettingsError(f"{path}: holds {frames.shape} of type {frames.dtype}; {needed}")
 
 
 def _board_options(driver: DriverSettings) -> list[str]:

@@ -17,8 +17,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import psutil
 import pytest
+from numpy.typing import NDArray
 from peers import Peers
 from waiting import pause, wait_for
 
@@ -236,13 +238,38 @@ def _settings_of(command: str, node: str) -> dict[str, str]:
 
 
 def test_a_recording_stands_in_for_the_ball_and_a_replay_for_the_board(tmp_path: Path) -> None:
-    (tmp_path / "press.npy").touch()
+    np.save(tmp_path / "press.npy", np.zeros((3, 32, 32), np.uint16))
     (tmp_path / "touch.npz").touch()
     text = TWO.replace('port: "serial:1"', "recording: press.npy").replace('port: "serial:2"', "replay: touch.npz")
     commands = plan(skins_yaml(tmp_path, text), simulated=True)
     assert list(commands) == ["left/virtual_board", "left/tactile", "right/tactile"]
     assert f"--recording {tmp_path}/press.npy" in commands["left/virtual_board"]
     assert f"driver.replay={tmp_path}/touch.npz" in commands["right/tactile"]
+
+
+@pytest.mark.parametrize(
+    ("frames", "words"),
+    [
+        (
+            np.zeros((3, 16, 16), np.uint16),
+            r"holds \(3, 16, 16\) of type uint16; needed .*\(n, rows = 32, cols",
+        ),
+        (np.zeros((32, 32), np.uint16), r"holds \(32, 32\) of type uint16"),
+        (np.zeros((3, 32, 32)), "of type float64; needed .* of type uint16"),
+        (np.zeros((3, 32, 32), ">u2"), "of type >u2; needed .* of type uint16"),
+        (np.asfortranarray(np.zeros((3, 32, 32), np.uint16)), "in C order"),
+        (np.zeros((0, 32, 32), np.uint16), r"holds \(0, 32, 32\) .*needed are one or more frames"),
+        (None, "no .npy file of frames"),
+    ],
+)
+def test_a_recording_that_its_board_would_refuse_is_refused_before_anything_starts(
+    tmp_path: Path, frames: NDArray[Any] | None, words: str
+) -> None:
+    (tmp_path / "press.npy").write_bytes(b"PK no frames")
+    if frames is not None:
+        np.save(tmp_path / "press.npy", frames)
+    with pytest.raises(SettingsError, match=rf"skins\.yaml:3: skin left: recording = .*press\.npy: .*{words}"):
+        plan(skins_yaml(tmp_path, TWO.replace('port: "serial:1"', "recording: press.npy")), simulated=True)
 
 
 def test_the_boards_of_simulated_skins_are_as_the_file_says(tmp_path: Path) -> None:
