@@ -20,7 +20,7 @@ from acts_core.files.model_file import ModelFile, settings_field
 from acts_core.files.npz_file import UNPACKED_BYTES_MAX, half_of_memory_bytes, npz_names, read_npz, unpacked_bytes
 from acts_core.files.private_files import FileClaim, make_private
 from acts_core.files.regular_file import TEXT_BYTES_MAX, is_there, path_of, read_text, require_regular
-from acts_core.files.whole_file import write_whole
+from acts_core.files.whole_file import write_array, write_whole
 from acts_core.files.yaml_places import Section, is_number, read_yaml, shown
 
 __all__ = [
@@ -50,5 +50,6 @@ __all__ = [
     "shown",
     "unpacked_bytes",
     "without_contact",
+    "write_array",
     "write_whole",
 ]

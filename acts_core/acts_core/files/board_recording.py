@@ -23,7 +23,7 @@ from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import RecordingError
 from acts_core.files.frames_file import rate_hz_of, recordings_of
 from acts_core.files.npz_file import half_of_memory_bytes, read_npz
-from acts_core.files.whole_file import write_whole
+from acts_core.files.whole_file import write_array, write_whole
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def export_recording(
         raise RecordingError(f"{npz_path}: no frames are selected")
     counts = np.repeat(_counts(frames[chosen], npz_path), repeat, axis=0)
     with write_whole(out_npy, error=RecordingError, hint="its folder must exist") as file:
-        np.save(file, counts)
+        write_array(file, counts)
     return ExportedRecording(out_npy, len(counts), counts.shape[1], counts.shape[2], rate_hz, labels)
 
 

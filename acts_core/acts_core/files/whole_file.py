@@ -13,7 +13,10 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
 
 from acts_core.errors import ActsError
 
@@ -70,6 +73,13 @@ def write_whole(
             tail = f"; {hint}" if hint else ""
             raise error(f"{path}: cannot be written ({failure.strerror}){tail}") from failure
         raise
+
+
+def write_array(file: BinaryIO, array: NDArray[Any]) -> None:
+    """Write an array as ``np.save`` does, which does not say why it fails, as where the disk is full."""
+    whole = np.ascontiguousarray(array)
+    np.lib.format.write_array_header_1_0(file, np.lib.format.header_data_from_array_1_0(whole))
+    file.write(whole.data)
 
 
 def _remove_left(target: Path) -> None:

@@ -6,14 +6,17 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from acts_core.errors import ActsError
-from acts_core.files import write_whole
+from acts_core.files import write_array, write_whole
 
 
 def test_what_is_interrupted_leaves_what_was_there_and_nothing_else(tmp_path: Path) -> None:
@@ -99,4 +102,35 @@ def test_what_cannot_be_written_is_refused(name: str, message: str, tmp_path: Pa
         write_whole(tmp_path / name, error=ActsError, hint="name another"),
     ):
         pass
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.arange(24, dtype=np.uint16).reshape(2, 3, 4),
+        np.asfortranarray(np.arange(6.0).reshape(2, 3)),
+        np.arange(24, dtype=np.int32).reshape(4, 6)[::2, 1::2],
+        np.zeros((0, 4, 4), dtype=np.uint16),
+    ],
+)
+def test_an_array_is_read_as_it_was_written(array: np.ndarray, tmp_path: Path) -> None:
+    path = tmp_path / "array.npy"
+    with write_whole(path, error=ActsError) as file:
+        write_array(file, array)
+    read = np.load(path)
+    assert (read.dtype, read.shape) == (array.dtype, array.shape)
+    assert np.array_equal(read, array)
+
+
+def test_of_an_array_that_fills_the_disk_the_reason_is_told(tmp_path: Path) -> None:
+    code = (
+        "import resource\nfrom pathlib import Path\nimport numpy as np\nfrom acts_core.errors import ActsError\n"
+        "from acts_core.files import write_array, write_whole\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+        "with write_whole(Path('array.npy'), error=ActsError) as file:\n"
+        "    write_array(file, np.zeros((100, 32, 32), dtype=np.uint16))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "ActsError: array.npy: cannot be written (File too large)" in ended.stderr
     assert not list(tmp_path.iterdir())

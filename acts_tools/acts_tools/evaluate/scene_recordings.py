@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_core.errors import RecordingError
-from acts_core.files import write_whole
+from acts_core.files import write_array, write_whole
 from acts_tools.evaluate import report
 from acts_tools.output_file import make_folder, require_apart
 from acts_tools.progress import tell
@@ -78,5 +78,5 @@ def write_recording(folder: Path, name: str, frames: NDArray[np.uint16], rate_hz
     if missing > 0 and np.array_equal(frames[-1], frames[0]):
         frames = np.concatenate((frames, np.repeat(frames[:1], missing, axis=0)))
     with write_whole(path, error=RecordingError, makes_folder=True) as file:
-        np.save(file, frames)
+        write_array(file, frames)
     tell(f"{path}: {len(frames) / rate_hz:.2f} s, recording_rate_hz:={rate_hz:g}")

@@ -115,6 +115,18 @@ def test_a_disk_that_is_full_leaves_the_picture_before(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["out.png"]
 
 
+def test_a_disk_that_is_full_is_told_of_a_recording_for_a_board(tmp_path: Path) -> None:
+    code = (
+        "import resource\nfrom pathlib import Path\nimport numpy as np\n"
+        "from acts_tools.evaluate.scene_recordings import write_recording\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+        "write_recording(Path('scenes'), 'drop', np.zeros((10, 32, 32), dtype=np.uint16), 100.0)\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "RecordingError: scenes/drop.npy: cannot be written (File too large)" in ended.stderr
+    assert not list((tmp_path / "scenes").iterdir())
+
+
 def test_results_are_in_the_file_as_soon_as_they_are_there(tmp_path: Path) -> None:
     path = tmp_path / "out.json"
     path.write_text("older")
