@@ -8,12 +8,16 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from acts_tools.cli import main
+from acts_tools.evaluate import picture
 
 pytestmark = pytest.mark.slow
 
@@ -56,8 +60,8 @@ def test_slip_is_told_on_the_patch_and_at_the_time_where_it_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     frames, output = save(tmp_path / "f.npz", recording(slips=True), recording(slips=False)), tmp_path / "o.json"
-    picture = tmp_path / "o.png"
-    words = ["evaluate", "slip", "--frames", str(frames), "--json", str(output), "--picture", str(picture)]
+    drawn = tmp_path / "o.png"
+    words = ["evaluate", "slip", "--frames", str(frames), "--json", str(output), "--picture", str(drawn)]
     assert main(words) == 0
     slipped, still, total = json.loads(output.read_text())["results"]
     assert slipped["recording"] == "0 made 0"
@@ -70,7 +74,7 @@ def test_slip_is_told_on_the_patch_and_at_the_time_where_it_is(
     assert still["steady"] > 400
     assert total["told"] == slipped["told"]
     assert "| all |" in capsys.readouterr().out
-    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert drawn.read_bytes().startswith(b"\x89PNG")
 
 
 def test_a_recording_in_which_nothing_is_pressed_is_nothing_to_watch(
@@ -86,10 +90,29 @@ def test_a_recording_in_which_nothing_is_pressed_is_nothing_to_watch(
 @pytest.mark.filterwarnings("error")
 def test_a_recording_in_which_nothing_is_pressed_is_drawn_without_a_legend(tmp_path: Path) -> None:
     pressed = recording(slips=False)[:60]
-    picture = tmp_path / "p.png"
+    drawn = tmp_path / "p.png"
     path = save(tmp_path / "f.npz", pressed, np.zeros_like(pressed))
-    assert main(["evaluate", "slip", "--frames", str(path), "--picture", str(picture)]) == 0
-    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert main(["evaluate", "slip", "--frames", str(path), "--picture", str(drawn)]) == 0
+    assert drawn.read_bytes().startswith(b"\x89PNG")
+
+
+def test_neither_the_legend_of_the_picture_nor_a_patch_hides_slip(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[Any] = []
+    monkeypatch.setattr(picture, "save_picture", lambda figure, path, **options: drawn.append(figure))
+    path = save(tmp_path / "f.npz", recording(slips=True))
+    assert main(["evaluate", "slip", "--frames", str(path), "--picture", str(tmp_path / "p.png")]) == 0
+    (figure,) = drawn
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    diagram, legend = axes.get_window_extent(), axes.get_legend().get_window_extent()
+    assert legend.x0 >= diagram.x1
+    assert legend.x1 <= figure.bbox.x1
+    rings = [line for line in axes.lines if line.get_marker() == "o"]
+    # Of the patches, the fourth is drawn in red.
+    colours = {to_hex(line.get_color()) for line in rings}
+    assert colours.isdisjoint(pyplot.rcParams["axes.prop_cycle"].by_key()["color"])
 
 
 def test_single_frames_show_no_motion(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -236,7 +236,7 @@ def _line(name: str, entry: dict[str, object]) -> str:
 
 
 def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
-    """Draw the path of the centre of pressure over time of the recordings with most slip; slip is red."""
+    """Draw the path of the centre of pressure over time of the recordings with most slip, which rings mark."""
     most = sorted(watched, key=lambda one: -sum(patch.told for patch in one[1]))[:5]
     with diagrams(path, len(most), 1, size_inch=(9, 2.2 * len(most)), dpi=110) as rows:
         for axes, (name, found) in zip(rows, most, strict=True):
@@ -246,11 +246,11 @@ def _draw(path: Path, watched: list[tuple[str, list[PatchResult]]]) -> None:
                 time_s, row, col, told = (np.array(values) for values in zip(*patch.path, strict=True))
                 (line,) = axes.plot(time_s, row, ".", markersize=2, label=f"patch {patch.patch}: row")
                 axes.plot(time_s, col, ".", markersize=2, color=line.get_color(), alpha=0.4)
-                axes.plot(time_s[told], row[told], "o", markersize=4, markerfacecolor="none", color="tab:red")
+                axes.plot(time_s[told], row[told], "o", markersize=4, markerfacecolor="none", color="black")
             axes.set_title(
-                f"recording {name}: centre of pressure, rows (strong) and columns (pale); red: slip", fontsize=8
+                f"recording {name}: centre of pressure, rows (strong) and columns (pale); black rings: slip", fontsize=8
             )
             axes.set_ylabel("taxels")
             if axes.lines:
-                axes.legend(fontsize=6, loc="upper right")
+                axes.legend(fontsize=6, loc="upper left", bbox_to_anchor=(1.0, 1.0))
         rows[-1].set_xlabel("time [s]")
