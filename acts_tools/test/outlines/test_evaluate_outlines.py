@@ -6,12 +6,15 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from acts_tools.cli import main
+from acts_tools.evaluate.outlines import surface_files
 
 pytestmark = pytest.mark.slow
 
@@ -36,6 +39,28 @@ def test_outlines_are_nearer_to_the_truth_than_by_the_papers_method(tmp_path: Pa
         assert not frames[0].any()
         assert frames.max() > 100
     assert (folder / "tennis_m64.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_touch_of_few_frames_has_a_surface_that_can_be_read_or_is_told_to_have_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: dict[str, Any] = {}
+    monkeypatch.setattr(
+        surface_files, "save_picture", lambda figure, path, **options: drawn.update({path.name: figure})
+    )
+    words = ["evaluate", "outlines", "--body", "tennis", "block", "--m", "256", "--seeds", "1"]
+    assert main([*words, "--surfaces", str(tmp_path)]) == 0
+    told = capsys.readouterr().out
+    assert f"{tmp_path / 'tennis_m256'}: no surface, which takes outlines of two frames or more" in told
+    assert f"\n{tmp_path / 'block_m256.ply'}\n" in told
+    assert [path.name for path in tmp_path.iterdir()] == ["block_m256.ply"]
+    assert list(drawn) == ["block_m256.png"]
+    (axes,) = drawn["block_m256.png"].axes
+    axes.figure.draw_without_rendering()
+    for axis in (axes.xaxis, axes.yaxis):
+        labels = [tick.label1.get_window_extent() for tick in axis.get_major_ticks()]
+        assert len(labels) > 2
+        assert not any(one.overlaps(other) for one, other in pairwise(labels))
 
 
 def test_outlines_are_as_good_where_a_touch_takes_few_frames(tmp_path: Path) -> None:

@@ -10,10 +10,11 @@ from pathlib import Path
 
 from acts_recon.outlines import Outline, surface_of, write_ply
 from acts_tools.output_file import save_picture
+from acts_tools.progress import tell
 
 
 def write_surfaces(folder: Path, name: str, outlines: Sequence[Outline]) -> None:
-    """Write the contact that was told most often as ``NAME.ply`` and ``NAME.png``; nothing where it has no surface.
+    """Write the contact that was told most often as ``NAME.ply`` and ``NAME.png``; say where it has no surface.
 
     Raises
     ------
@@ -24,9 +25,13 @@ def write_surfaces(folder: Path, name: str, outlines: Sequence[Outline]) -> None
     most = max(set(numbers), key=numbers.count, default=None)
     mine = [outline for outline in outlines if outline.number == most]
     if len(mine) < 2:
+        tell(f"{folder / name}: no surface, which takes outlines of two frames or more")
         return
-    draw_surface(mine, folder / f"{name}.png")
-    write_ply(surface_of(mine), folder / f"{name}.ply")
+    picture, model = folder / f"{name}.png", folder / f"{name}.ply"
+    draw_surface(mine, picture)
+    tell(str(picture))
+    write_ply(surface_of(mine), model)
+    tell(str(model))
 
 
 def draw_surface(outlines: Sequence[Outline], path: Path) -> None:
@@ -35,6 +40,7 @@ def draw_surface(outlines: Sequence[Outline], path: Path) -> None:
     import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     figure = Figure(figsize=(5, 5), layout="constrained")
     FigureCanvasAgg(figure)
@@ -48,6 +54,9 @@ def draw_surface(outlines: Sequence[Outline], path: Path) -> None:
         colour = mpl.colormaps["viridis"](after_s / last_s)
         x_mm, y_mm = 1e3 * outline.x_m, 1e3 * outline.y_m
         axes.plot([*x_mm, x_mm[0]], [*y_mm, y_mm[0]], 1e3 * after_s, color=colour)
+    # More labels than these would lie on one another.
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(4))
     axes.set_xlabel("x [mm]")
     axes.set_ylabel("y [mm]")
     axes.set_zlabel("time [ms]")
