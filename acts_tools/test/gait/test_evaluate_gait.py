@@ -149,7 +149,16 @@ def test_insoles_without_a_step_are_nothing_to_compare(tmp_path: Path, capsys: p
         ({"frames": np.full((4, 2, 5, 5), np.inf)}, "the first of them is numbered 0; needed are numbers"),
         ({"t_s": np.arange(3.0)}, "needed are `frames`"),
         ({"t_s": np.zeros(4)}, "not ascend"),
+        (
+            {"t_s": np.array([0.0, 0.1, 0.1, 0.2])},
+            "recording 0 do not ascend: the frame numbered 2 is of 0.1 s, the one before of 0.1 s; leave out",
+        ),
+        (
+            {"t_s": np.array([0.0, 0.1, 0.2, 0.1]), "start": [0, 1], "length": [1, 3]},
+            "recording 1 do not ascend: the frame numbered 3 is of 0.1 s, the one before of 0.2 s",
+        ),
         ({"t_s": np.full(4, np.nan)}, "needed are `frames`"),
+        ({"t_s": np.array([0.0, 0.1, np.nan, 0.2])}, "t_s of the frame numbered 2 is nan; leave out such frames"),
         ({"rate_hz": 0.0}, "neither t_s nor one rate_hz"),
         ({"rate_hz": 1e9}, "neither t_s nor one rate_hz"),
         ({"start": [0], "length": [5]}, "beyond the 4 frames"),

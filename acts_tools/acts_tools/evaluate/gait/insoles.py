@@ -68,8 +68,14 @@ def read_insoles(path: Path) -> list[InsoleRecording]:
         if not length:
             continue
         part = np.s_[start : start + length]
-        if not (np.diff(time_s[part]) > 0).all():
-            raise RecordingError(f"{path}: the times of recording {number} do not ascend")
+        later = np.diff(time_s[part]) > 0
+        if not later.all():
+            wrong = start + 1 + int(np.argmin(later))
+            raise RecordingError(
+                f"{path}: the times of recording {number} do not ascend: the frame numbered {wrong} is of "
+                f"{time_s[wrong]:.10g} s, the one before of {time_s[wrong - 1]:.10g} s; leave out frames that are not "
+                "later than the one before, and mark several recordings by `start` and `length`"
+            )
         name = f"{number} {label}" if labels.dtype.kind in "SU" else str(number)
         found.append(InsoleRecording(name, time_s[part], frames[part]))
     if not found:
@@ -103,8 +109,14 @@ def _time_s(path: Path, content: dict[str, NDArray[np.generic]], count: int) -> 
         if name not in content:
             continue
         time_s = content[name]
-        if time_s.shape != (count,) or time_s.dtype.kind not in "iuf" or not np.isfinite(time_s).all():
+        if time_s.shape != (count,) or time_s.dtype.kind not in "iuf":
             raise RecordingError(f"{path}: {name} {time_s.shape}, {time_s.dtype}: {_NEEDED}")
+        finite = np.isfinite(time_s)
+        if not finite.all():
+            wrong = int(np.argmin(finite))
+            raise RecordingError(
+                f"{path}: {name} of the frame numbered {wrong} is {time_s[wrong]}; leave out such frames: {_NEEDED}"
+            )
         return time_s.astype(np.float64)
     rate = content.get("rate_hz")
     if rate is None or not is_rate(rate):
