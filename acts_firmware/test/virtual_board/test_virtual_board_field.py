@@ -274,6 +274,9 @@ def noisy_frames(folder: Path) -> list[dict[int, NDArray[np.uint16]]]:
     ("array", "message"),
     [
         (np.zeros((3, ROWS, COLS + 1), dtype=np.uint16), "shape (frames, 6, 5)"),
+        (np.zeros((3, 16, 32), dtype=np.uint16), "--rows 16 --cols 32 (of launch files rows:=16 cols:=32)"),
+        (np.zeros((3, ROWS, COLS)), "save frames.astype(numpy.uint16, order='C')"),
+        (np.asfortranarray(np.zeros((3, ROWS, COLS), dtype=np.uint16)), "save frames.astype(numpy.uint16, order='C')"),
         (np.zeros((3, ROWS, COLS)), "uint16"),
         (np.zeros((ROWS, COLS), dtype=np.uint16), "shape (frames, 6, 5)"),
         (np.asfortranarray(np.zeros((3, ROWS, COLS), dtype=np.uint16)), "C order"),

@@ -57,13 +57,23 @@ class Recording final : public Field {
     const std::size_t at = header.text.find("'shape': (");
     const bool read = at != std::string::npos && std::sscanf(header.text.c_str() + at, "'shape': (%llu, %llu, %llu)%n",
                                                              &shape[0], &shape[1], &shape[2], &past) == 3;
-    const bool fits = read && past > 0 && shape[1] == static_cast<unsigned long long>(rows) &&
-                      shape[2] == static_cast<unsigned long long>(cols) &&
-                      header.text.find("'descr': '<u2'") != std::string::npos &&
-                      header.text.find("'fortran_order': False") != std::string::npos;
-    if (!fits || shape[0] == 0) {
+    const bool are_frames = read && past > 0;
+    const bool has_size = are_frames && shape[1] == static_cast<unsigned long long>(rows) &&
+                          shape[2] == static_cast<unsigned long long>(cols);
+    const bool is_plain = header.text.find("'descr': '<u2'") != std::string::npos &&
+                          header.text.find("'fortran_order': False") != std::string::npos;
+    if (!has_size || !is_plain || shape[0] == 0) {
+      std::string advice;
+      if (are_frames && !has_size) {
+        const std::string high = std::to_string(shape[1]);
+        const std::string wide = std::to_string(shape[2]);
+        advice = "; if that is the array's size, give it: --rows " + high + " --cols " + wide +
+                 " (of launch files rows:=" + high + " cols:=" + wide + ")";
+      } else if (has_size && !is_plain) {
+        advice = "; save frames.astype(numpy.uint16, order='C')";
+      }
       throw std::runtime_error(path + ": holds " + header.text.substr(0, header.text.find_last_of('}') + 1) + "; " +
-                               wanted + " with one frame or more is needed");
+                               wanted + " with one frame or more is needed" + advice);
     }
     frames_ = static_cast<std::size_t>(shape[0]);
     data_ = file_.data() + header.data_offset;
