@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Sequence
 from functools import partial
+from types import SimpleNamespace
 
 import pytest
 from dynamixel_bus import DEADLINE_S, Bus, torques
@@ -216,6 +217,19 @@ def test_a_motor_that_was_started_anew_while_the_torque_was_off_is_not_told_as_w
     cycles = running.loop.status.cycles
     running.until(lambda: running.loop.status.cycles > cycles + 5)
     assert (running.loop.status.phase, running.loop.status.reason) == (HandPhase.RELEASED, "released by request")
+
+
+def test_only_faults_of_one_motor_within_a_minute_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    memory, now_s = FaultMemory(motors=2, most=3), [0.0]
+    monkeypatch.setattr(fault_memory, "time", SimpleNamespace(monotonic=lambda: now_s[0]))
+
+    def failed_too_often(motor: int, at_s: float) -> bool:
+        now_s[0] = at_s
+        return memory.add(motor)
+
+    assert not any(failed_too_often(0, at_s) for at_s in (0.0, 30.0, 61.0))
+    assert not failed_too_often(1, 62.0)
+    assert failed_too_often(0, 89.0)
 
 
 def test_faults_may_be_forgotten_just_while_one_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:

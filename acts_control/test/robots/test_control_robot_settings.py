@@ -3,6 +3,7 @@
 
 """Settings of a robot: refused where it could not be moved by them, or is none of this machine."""
 
+import math
 from dataclasses import make_dataclass
 
 import pytest
@@ -11,7 +12,9 @@ from acts_control.ball import LoopConfig
 from acts_control.robots import ROBOTS, RobotKind, with_robots
 from acts_control.robots.base import RobotConfig
 from acts_control.robots.ur import UrConfig
+from acts_control.robots.ur.gate import JointGate
 from acts_core.errors import SettingsError
+from acts_core.robots import ur5e
 from acts_core.settings import setting
 
 
@@ -30,6 +33,21 @@ def test_a_joint_step_that_the_limit_of_the_tilt_would_trip_is_refused() -> None
     assert UrConfig(max_joint_step_rad=0.01245).max_joint_step_rad == 0.01245
     assert UrConfig(max_joint_step_rad=0.01, control_rate_hz=250).max_joint_step_rad == 0.01
     assert UrConfig(max_tilt_rate_rad_s=3.0).max_tilt_rate_rad_s == 3.0, "the default suits every rate of the tilt"
+
+
+@pytest.mark.parametrize("mount_yaw_rad", [0.0, math.pi / 4, -0.3])
+@pytest.mark.parametrize("max_joint_step_rad", [0.02, 0.05])
+def test_the_longest_step_of_the_tilt_about_both_axes_passes_the_last_look_at_the_joints(
+    mount_yaw_rad: float, max_joint_step_rad: float
+) -> None:
+    config = UrConfig(mount_yaw_rad=mount_yaw_rad, max_joint_step_rad=max_joint_step_rad)
+    step_rad, gate = config.longest_step_rad, JointGate(config)
+    for tilt_rad in ((0.0, 0.0), (step_rad, step_rad), (0.0, 0.0), (step_rad, -step_rad), (0.0, -2.0 * step_rad)):
+        q_rad = list(config.level_q_rad)
+        q_rad[3:5] = ur5e.wrist_angles_for_tilt(config.level_q_rad, *tilt_rad, mount_yaw_rad)
+        assert gate.fault(q_rad) == ""
+    # But not much shorter than it may be: a plate that is slower than its limit of the rate rolls the ball off.
+    assert step_rad > 0.6 * max_joint_step_rad
 
 
 @pytest.mark.parametrize("robot_ip", ["192.168.1.10", "127.evil.example.com", "localhost", '127."', ""])
