@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from waiting import wait_for
 
+from acts_ros import clocks
 from acts_ros.clocks import Stalls, keep_system_clock, steady_timer
 from acts_ros.parameters import node_options
 
@@ -105,3 +106,45 @@ def test_a_machine_that_has_slept_has_stood_still(context: Context, monkeypatch:
     assert stalls.objection() == ""
     slept_s[0] = 600.0
     assert stalls.objection().startswith("this program stood still for 600.")
+
+
+def test_what_was_asked_for_before_a_node_stood_still_is_told_also_before_its_executor_goes_on(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now_s, looks = [100.0], []
+
+    def clock() -> float:
+        looks.append(now_s[0])
+        return now_s[0]
+
+    monkeypatch.setattr(clocks, "boot_time_s", clock)
+    node = make_node(context)
+    stalls = Stalls(node, longest_s=0.5)
+    # As long as nobody has looked it is not known.
+    assert stalls.since(99.0) == ""
+    stalls.begin()
+    now_s[0] += 0.4
+    assert stalls.since(100.0) == ""
+    now_s[0] = 102.0
+    # Asked from a thread that is up before the executor, which is to find the same.
+    assert [stalls.since(asked_s) for asked_s in (100.0, 101.9)] == 2 * ["this program stood still for 2.0 s"]
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    before = len(looks)
+    wait_for(lambda: len(looks) > before, meanwhile=lambda: executor.spin_once(timeout_sec=0.05))
+    now_s[0] = 102.3
+    assert stalls.since(101.9) == "this program stood still for 2.0 s"
+    assert stalls.since(102.1) == ""
+    assert stalls.objection() == "this program stood still for 2.0 s, and was perhaps asked meanwhile; ask again"
+    now_s[0] = 102.7
+    assert stalls.objection() == ""
+
+
+def test_a_node_that_keeps_the_systems_clock_takes_its_other_parameters(context: Context) -> None:
+    node = make_node(context)
+    node.declare_parameter("is_bright", False)
+    keep_system_clock(node, "the board does not wait")
+    both = [Parameter("is_bright", value=True), Parameter("use_sim_time", value=True)]
+    assert [result.successful for result in node.set_parameters(both)] == [True, False]
+    assert not node.set_parameters_atomically(both).successful
+    assert node.set_parameters([Parameter("use_sim_time", value=False)])[0].successful
