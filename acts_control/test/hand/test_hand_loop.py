@@ -17,6 +17,8 @@ from dynamixel_bus import DEADLINE_S, Bus, leave_at, torques
 from hand_loop_rig import Made, Moved, Running
 
 from acts_control.hand.control import HandPhase
+from acts_control.hand.control.status import HandStatus
+from acts_control.hand.control.torque_wish import TorqueWish
 from acts_control.hand.description import LEAP_RIGHT
 from acts_control.hand.motors import DynamixelHand, HandError, HandReading
 
@@ -311,3 +313,56 @@ def test_a_mistake_in_a_reflex_switches_the_torque_off_and_is_told(bus: Bus, mon
     assert running.loop.status.reason == told
     for asked in (running.loop.enable, running.loop.release):
         assert asked() == f"the hand's loop has ended: {told}"
+
+
+def test_a_release_is_told_as_done_only_where_the_motors_have_said_so() -> None:
+    wish, released = TorqueWish(is_on=True), HandStatus(phase=HandPhase.RELEASED, reason="released by request")
+    assert "loop has ended" in wish.why_not_off(released)
+    wish.is_served = True
+    wish.off("released by request")
+    # Also where the status says so: what it says may be of a time before.
+    assert wish.why_not_off(released).endswith("cut their power to be sure")
+    lost = HandStatus(phase=HandPhase.CONNECTING, reason="the cable is gone")
+    wish.off_is_known.set()
+    assert "not connected (the cable is gone); it is released as soon as it is" in wish.why_not_off(lost)
+    assert wish.why_not_off(released) == ""
+    # Another one is not yet known of, though the one before was.
+    wish.off("released by request")
+    assert not wish.off_is_known.is_set()
+    wish.tell_all()
+    assert wish.off_is_known.is_set()
+    wish.off("released by request")
+    wish.on()
+    assert wish.off_is_known.is_set()
+    assert wish.why_not_off(HandStatus(phase=HandPhase.ENABLED)) == "the torque was asked for again meanwhile"
+    wish.is_served = False
+    assert "loop has ended" in wish.why_not_off(released)
+
+
+def test_torque_is_told_as_on_only_where_the_motors_have_said_so_since_it_was_asked_for() -> None:
+    wish, enabled = TorqueWish(is_on=False), HandStatus(phase=HandPhase.ENABLED)
+    assert "loop has ended" in wish.why_not_on(enabled)
+    wish.is_served = True
+    assert (wish.why_released, wish.is_under_way) == ("connected", False)
+    wish.on()
+    assert (wish.is_on, wish.is_under_way, wish.on_is_known.is_set()) == (True, True, False)
+    wish.on()
+    assert "have not said within 2 s that their torque is on" in wish.why_not_on(enabled)
+    wish.has_come_on()
+    assert wish.on_is_known.is_set()
+    assert wish.why_not_on(enabled) == ""
+    # Who asks for what is there already does not wait for it, and one that goes off by itself is on its way again.
+    wish.on()
+    assert not wish.is_under_way
+    wish.has_gone_off()
+    assert wish.is_under_way
+    assert "the hand is given up (hot); its" in wish.why_not_on(HandStatus(phase=HandPhase.GIVEN_UP, reason="hot"))
+    wish.off("a stop")
+    assert (wish.is_on, wish.is_under_way, wish.on_is_known.is_set()) == (False, False, True)
+    assert (wish.why_not_on(enabled), wish.why_released) == ("the torque is off: a stop", "a stop")
+    wish.has_gone_off()
+    assert not wish.is_under_way
+    wish.on()
+    assert (wish.why_released, wish.on_is_known.is_set()) == ("connected", False)
+    wish.tell_all()
+    assert wish.on_is_known.is_set()
