@@ -39,9 +39,7 @@ class Arm(UrRobot):
     @property
     def is_over(self) -> bool:
         """Whether the process of the last connection has ended, and no other has begun."""
-        # Forgotten by the next attempt to connect, once it has ended.
-        process = self._process
-        return process is None or process.poll() is not None
+        return self._link.is_process_gone
 
 
 class Rig:

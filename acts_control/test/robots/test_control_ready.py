@@ -70,9 +70,9 @@ def test_a_controller_that_tells_nothing_is_not_told_as_an_arm_that_is_off(monke
     nothing = UrState(connected=False, timestamp_s=0.0, q_rad=(), safety_bits=0, runtime_state=0, robot_mode=0)
     robot = UrRobot(UrConfig(robot_ip="127.0.17.35"))
     monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
-    monkeypatch.setattr(robot, "_start_process", lambda: None)
-    monkeypatch.setattr(robot, "_carry_out", lambda *_: None)
-    monkeypatch.setattr(robot, "_newest", lambda: nothing)
+    monkeypatch.setattr(robot._link, "start", lambda: None)
+    monkeypatch.setattr(robot._link, "carry_out", lambda *_: None)
+    monkeypatch.setattr(robot._link, "newest", lambda: nothing)
     with pytest.raises(RobotError, match="accepts connections but sends no data; does it stand still") as caught:
         robot.connect(lambda: True)
     # It is tried again.
@@ -109,7 +109,7 @@ def test_a_program_that_ends_soon_as_by_the_robots_watchdog_is_waited_for() -> N
         answers: list[str] = []
 
         def end_it_meanwhile() -> bool:
-            if robot._state is not None and robot._state.is_playing and not answers:
+            if robot._link._state is not None and robot._link._state.is_playing and not answers:
                 answers.append(simulated.ask_dashboard("stop"))
             return True
 
@@ -141,7 +141,7 @@ def test_connecting_that_is_given_up_leaves_no_program_on_the_robot(monkeypatch:
             return any(words == PROGRAM for _at_s, _port, words in simulated.orders())
 
         def is_wanted() -> bool:
-            if [name for name, _sent_s in robot._pending] != ["take_control"]:
+            if [name for name, _sent_s in robot._link._pending] != ["take_control"]:
                 return True
             wait_for(is_uploaded, "the program to be uploaded")
             return False
@@ -166,9 +166,9 @@ def test_a_program_that_cannot_be_ended_holds_up_nobody_and_is_told(monkeypatch:
             raise RobotError("connecting was given up")
 
     monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
-    monkeypatch.setattr(robot, "_start_process", lambda: monkeypatch.setattr(robot, "_link", ours))
-    monkeypatch.setattr(robot, "_carry_out", carry_out)
-    monkeypatch.setattr(robot, "_state", UrState(True, 1.0, FAR, 1, 1))
+    monkeypatch.setattr(robot._link, "start", lambda: monkeypatch.setattr(robot._link, "_link", ours))
+    monkeypatch.setattr(robot._link, "carry_out", carry_out)
+    monkeypatch.setattr(robot._link, "_state", UrState(True, 1.0, FAR, 1, 1))
     with closing(theirs):
         begin_s = time.monotonic()
         with pytest.raises(RobotError, match="connecting was given up"):

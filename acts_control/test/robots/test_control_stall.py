@@ -27,6 +27,7 @@ from control_rig import Bench, RollingBall, SimulatedRobot, node_command
 from diagnostic_msgs.msg import DiagnosticArray
 from waiting import wait_for
 
+import acts_control.robots.ur.process_link
 import acts_control.robots.ur.robot
 from acts_control.ball import Phase
 from acts_control.robots.ur import UrConfig, UrRobot
@@ -150,8 +151,8 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
     with ExitStack() as stack:
         host = "127.0.17.10"
         simulated = stack.enter_context(SimulatedRobot(host))
-        timeout_s = acts_control.robots.ur.robot._CONNECT_TIMEOUT_S
-        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", 0.5)
+        timeout_s = acts_control.robots.ur.process_link._CONNECT_TIMEOUT_S
+        monkeypatch.setattr(acts_control.robots.ur.process_link, "_CONNECT_TIMEOUT_S", 0.5)
 
         def probe_and_pause(host: str) -> None:
             probe(host)
@@ -165,7 +166,7 @@ def test_a_stall_while_connecting_holds_up_nobody(monkeypatch: pytest.MonkeyPatc
         assert rig.arm.is_over
         monkeypatch.setattr(acts_control.robots.ur.robot, "probe", probe)
         wait_for(lambda: "does it stand still?" in rig.loop.status.reason, lambda: f"the reason, {rig.loop.status}")
-        monkeypatch.setattr(acts_control.robots.ur.robot, "_CONNECT_TIMEOUT_S", timeout_s)
+        monkeypatch.setattr(acts_control.robots.ur.process_link, "_CONNECT_TIMEOUT_S", timeout_s)
         rig.resume()
         rig.balance()
 
@@ -174,8 +175,8 @@ def test_a_connection_whose_process_dies_is_lost() -> None:
     with ExitStack() as stack:
         rig = Rig("127.0.17.11", stack)
         rig.balance()
-        assert rig.arm._process is not None
-        rig.arm._process.send_signal(signal.SIGSEGV)
+        assert rig.arm._link._process is not None
+        rig.arm._link._process.send_signal(signal.SIGSEGV)
         assert "has ended (SIGSEGV)" in rig.await_phase(Phase.STOPPED)
         assert rig.loop.start()
         rig.balance()
@@ -203,7 +204,7 @@ def test_an_argument_that_the_library_refuses_is_no_lost_connection() -> None:
         robot = UrRobot(UrConfig(robot_ip=simulated.host))
         robot.connect(lambda: True)
         # The settings allow no such lookahead time.
-        robot._send("servoJ", list(ur5e.LEVEL_Q_RAD), 0.0, 0.0, 0.002, 9.0, 300.0)
+        robot._link.send("servoJ", list(ur5e.LEVEL_Q_RAD), 0.0, 0.0, 0.002, 9.0, 300.0)
         with pytest.raises(RobotError, match=r"127\.0\.17\.18: servoJ: "):
             wait_for(lambda: not robot.is_busy, "the refusal")
         robot.disconnect()
@@ -247,8 +248,8 @@ def test_an_arm_on_its_way_to_level_stops_when_nobody_watches_it_any_more() -> N
             simulated = stack.enter_context(SimulatedRobot(host, far))
             rig = Rig(host, stack, simulated=simulated, homing_speed_rad_s=0.3)
             wait_for(lambda: simulated.state()["q_rad"][0] < far[0] - 0.05, "the arm to be on its way")
-            assert rig.arm._process is not None
-            rig.arm._process.send_signal(number)
+            assert rig.arm._link._process is not None
+            rig.arm._link._process.send_signal(number)
             rig.await_phase(Phase.STOPPED)
             wait_for(lambda: simulated.state()["runtime"] == "STOPPED", "the robot to end its program")
             wait_for(lambda: not any(simulated.state()["qd_rad_s"]), "rest")
@@ -286,7 +287,7 @@ def test_a_process_that_stood_still_just_before_a_command_says_so() -> None:
         robot.connect(lambda: True)
         robot.read()
         # Nobody tells the robot anything.
-        wait_for(lambda: not robot._newest().is_playing, "the robot to end its program")
+        wait_for(lambda: not robot._link.newest().is_playing, "the robot to end its program")
         robot.end_tilting()
         told = "the robot has ended its program: this process stood still for "
         assert robot.read().stopped.startswith(told)

@@ -104,7 +104,7 @@ def test_something_else_at_the_port(stack: ExitStack, pieces: list[bytes]) -> No
 
 def test_no_new_connection_before_the_former_has_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     robot = UrRobot(UrConfig(robot_ip=HOST))
-    monkeypatch.setattr(robot, "_process", SimpleNamespace(pid=4711, poll=lambda: None))
+    monkeypatch.setattr(robot._link, "_process", SimpleNamespace(pid=4711, poll=lambda: None))
     with pytest.raises(RobotError, match=r"waiting for the end of the former connection \(process 4711\)"):
         robot.connect(lambda: True)
 
@@ -145,8 +145,8 @@ def test_where_the_level_pose_is_only_nearly_level_the_first_tilt_is_no_step(mon
     nearly = tuple(pose(wrist_1=0.013, wrist_2=-0.013))
     robot = UrRobot(UrConfig(robot_ip=HOST, level_q_rad=nearly))
     sent: list[list[float]] = []
-    monkeypatch.setattr(robot, "_send", lambda _name, q_rad, *_others: sent.append(q_rad))
-    monkeypatch.setattr(robot, "_newest", lambda: UrState(True, 1.0, nearly, 1, 2))
+    monkeypatch.setattr(robot._link, "send", lambda _name, q_rad, *_others: sent.append(q_rad))
+    monkeypatch.setattr(robot._link, "newest", lambda: UrState(True, 1.0, nearly, 1, 2))
     robot.begin_levelling()
     assert robot.tilt(0.0, 0.0) == pytest.approx(sent[0], abs=1e-9)
     assert ur5e.tilt_of(sent[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -162,8 +162,8 @@ def test_the_arm_has_time_for_the_way_to_the_level_pose_however_slowly_it_may_go
     robot = UrRobot(
         UrConfig(robot_ip=HOST, homing_speed_rad_s=speed_rad_s, homing_acceleration_rad_s2=acceleration_rad_s2)
     )
-    monkeypatch.setattr(robot, "_send", lambda *_words: None)
-    monkeypatch.setattr(robot, "_newest", lambda: UrState(True, 1.0, tuple(pose(elbow=1.0)), 1, 2))
+    monkeypatch.setattr(robot._link, "send", lambda *_words: None)
+    monkeypatch.setattr(robot._link, "newest", lambda: UrState(True, 1.0, tuple(pose(elbow=1.0)), 1, 2))
     # Three times as long, as at a slider of the speed at a third, and some time to settle.
     assert robot.begin_levelling() == pytest.approx(5.0 + 3.0 * least_s)
 
@@ -250,8 +250,8 @@ def test_a_command_is_not_overdue_for_what_this_process_stood_still_after_it_loo
         return STATE
 
     monkeypatch.setattr(acts_control.robots.ur.robot, "steady_s", lambda: now_s[0])
-    monkeypatch.setattr(robot, "_newest", look_and_stand_still)
-    robot._pending.append(("servoJ", 9.99))
+    monkeypatch.setattr(robot._link, "newest", look_and_stand_still)
+    robot._link._pending.append(("servoJ", 9.99))
     assert robot.read().waiting_s == pytest.approx(0.01)
     # It has not come since.
     assert robot.read().waiting_s == pytest.approx(5.01)
@@ -260,15 +260,15 @@ def test_a_command_is_not_overdue_for_what_this_process_stood_still_after_it_loo
 def test_a_silence_that_a_robot_has_borne_is_not_blamed_for_a_later_stop(monkeypatch: pytest.MonkeyPatch) -> None:
     robot, now_s, states = UrRobot(UrConfig(robot_ip=HOST, robot_watchdog_s=0.5)), [10.0], [STATE]
     monkeypatch.setattr(acts_control.robots.ur.robot, "steady_s", lambda: now_s[0])
-    monkeypatch.setattr(robot, "_newest", lambda: states[0])
+    monkeypatch.setattr(robot._link, "newest", lambda: states[0])
 
     def read_after(seconds: float) -> str:
         now_s[0] += seconds
         stopped = robot.read().stopped
-        robot._sent_s = now_s[0]
+        robot._link._sent_s = now_s[0]
         return stopped
 
-    robot._sent_s = now_s[0]
+    robot._link._sent_s = now_s[0]
     assert read_after(0.1) == ""
     states[0] = STATE._replace(runtime_state=1)
     assert "this process stood still for 0.6 s, and robot_watchdog_s is 0.5" in read_after(0.6)
@@ -306,9 +306,9 @@ def test_only_an_arm_that_nobody_has_to_make_ready_is_tried_again(
             raise RobotError(told)
 
     monkeypatch.setattr(acts_control.robots.ur.robot, "probe", lambda _host: None)
-    monkeypatch.setattr(robot, "_start_process", lambda: None)
-    monkeypatch.setattr(robot, "_carry_out", carry_out)
-    monkeypatch.setattr(robot, "_newest", lambda: STATE._replace(runtime_state=1))
+    monkeypatch.setattr(robot._link, "start", lambda: None)
+    monkeypatch.setattr(robot._link, "carry_out", carry_out)
+    monkeypatch.setattr(robot._link, "newest", lambda: STATE._replace(runtime_state=1))
     with pytest.raises(RobotError) as caught:
         robot.connect(lambda: True)
     assert type(caught.value) is kind
