@@ -29,19 +29,15 @@ from acts_view.web.access import is_local_host, new_token, refusal
 from acts_view.web.codec import encode
 from acts_view.web.connections import FailureLog, LimitedConnection, bound_send_buffer
 from acts_view.web.display import Display, Reader
+from acts_view.web.downloads import FILES_PATH, Downloads
 from acts_view.web.page_files import read_page, version_of
 from acts_view.web.requests import STOPS, RequestHandler, read_request
 
 STREAM_PATH = "/stream"
-FILES_PATH = "/recordings/"
 MAX_UNANSWERED = 4
 READ_ONLY = "this page only shows; started with `acts view --control` it can also do that"
 MAX_CLIENTS = 32
-MAX_DOWNLOADS = 4
-_PIECE_BYTES = 1 << 16
 _LARGEST_REQUEST_BYTES = 1024
-# What a slow line still holds of a file may take this long to arrive.
-_LAST_PIECES_S = 60.0
 # A browser on a slow network sends its request within this.
 _HANDSHAKE_S = 5.0
 _METHODS = ("GET", "HEAD")
@@ -109,7 +105,7 @@ class ViewServer:
     on_request : RequestHandler, optional
         Acts on what pages ask for; None: they are refused.
     find_file : callable, optional
-        Gives the path of a file that pages may have by its name, or None; called on the server's thread.
+        None: pages may have no files. See `acts_view.web.downloads.Downloads`; called on the server's thread.
 
     Raises
     ------
@@ -133,8 +129,7 @@ class ViewServer:
         self._on_clients = on_clients
         self._log = log
         self._on_request = on_request
-        self._find_file = find_file
-        self._downloads = 0
+        self._downloads = Downloads(find_file or (lambda _name: None), send_limit_s, log)
         self._files = read_page()
         self._version = version_of(self._files)
         self._clients: set[_Client] = set()
@@ -254,7 +249,8 @@ class ViewServer:
             if reason:
                 return connection.respond(HTTPStatus.FORBIDDEN, f"{reason}\n")
             if path.startswith(FILES_PATH):
-                return self._refuse_file(connection, path)
+                refused = self._downloads.refusal(path)
+                return connection.respond(refused[0], f"{refused[1]}\n") if refused else None
             if len(self._clients) >= MAX_CLIENTS:
                 return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_CLIENTS} pages are open already\n")
             return None
@@ -264,46 +260,12 @@ class ViewServer:
         headers = {"Content-Type": file.content_type, "Content-Length": str(len(file.body)), "Connection": "close"}
         return Response(HTTPStatus.OK, "OK", Headers({**_HEADERS, **headers}), file.body)
 
-    def _refuse_file(self, connection: ServerConnection, path: str) -> Response | None:
-        """Why a file is not sent; None where it is."""
-        if self._file(path) is None:
-            return connection.respond(HTTPStatus.NOT_FOUND, "there is no such recording\n")
-        if self._downloads >= MAX_DOWNLOADS:
-            return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, f"{MAX_DOWNLOADS} files are sent already\n")
-        return None
-
-    def _file(self, path: str) -> Path | None:
-        return None if self._find_file is None else self._find_file(path.removeprefix(FILES_PATH))
-
     async def _serve(self, connection: ServerConnection) -> None:
         path = (connection.request.path if connection.request else "").partition("?")[0]
         if path.startswith(FILES_PATH):
-            await self._send_file(connection, path)
+            await self._downloads.send(connection, path)
         else:
             await self._stream(connection)
-
-    async def _send_file(self, connection: ServerConnection, path: str) -> None:
-        """Send a file in pieces, as the client takes them; it is whole where the socket is closed normally."""
-        file = self._file(path)
-        assert file is not None
-        bound_send_buffer(connection)
-        # Answers to both wait behind what a slow line holds, which may be megabytes, as of a tunnel.
-        connection.ping_timeout, connection.close_timeout = None, _LAST_PIECES_S
-        self._downloads += 1
-        try:
-            with await asyncio.to_thread(file.open, "rb") as stream:
-                while piece := await asyncio.to_thread(stream.read, _PIECE_BYTES):
-                    await asyncio.wait_for(connection.send(piece), self._send_limit_s)
-        except ConnectionClosed:
-            pass  # the page was closed, or does not want it any more
-        except asyncio.TimeoutError:
-            self._log("warning", f"{file} was not sent to its end: a page took nothing for {self._send_limit_s:g} s")
-            connection.transport.abort()
-        except OSError as error:
-            self._log("warning", f"{file} was not sent to its end: {error}")
-            connection.transport.abort()
-        finally:
-            self._downloads -= 1
 
     async def _stream(self, connection: ServerConnection) -> None:
         bound_send_buffer(connection)

@@ -106,8 +106,8 @@ def test_a_download_that_stands_still_is_given_up(
         await connection.send(bytes(1_000_000))
         await connection.wait_closed()
 
-    monkeypatch.setattr(player.server, "_find_file", lambda _name: tmp_path)
-    monkeypatch.setattr(player.server, "_send_file", send_a_piece)
+    monkeypatch.setattr(player.server._downloads, "_find", lambda _name: tmp_path)
+    monkeypatch.setattr(player.server._downloads, "send", send_a_piece)
     page = open_page(player)
     page.add_init_script(IMPATIENT)
     page.reload()
@@ -129,7 +129,7 @@ def test_a_download_that_the_browser_cannot_hold_is_told(
     player = play()
     player.status["recording"] = {"on": False, "note": "", "files": [["touch.mcap", 2_000_000]]}
     (tmp_path / "touch.mcap").write_bytes(bytes(2_000_000))
-    monkeypatch.setattr(player.server, "_find_file", lambda name: tmp_path / name)
+    monkeypatch.setattr(player.server._downloads, "_find", lambda name: tmp_path / name)
     page = open_page(player)
     item = page.locator("#recording .files li")
     with page.expect_download() as downloading:

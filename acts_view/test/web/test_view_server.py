@@ -235,7 +235,7 @@ def test_a_recording_is_sent_over_a_slow_line(bench: Bench, tmp_path: Path, monk
     size = 12_000_000
     file = tmp_path / "x.mcap"
     file.write_bytes(bytes(size))
-    monkeypatch.setattr(bench.server, "_find_file", lambda _name: file)
+    monkeypatch.setattr(bench.server._downloads, "_find", lambda _name: file)
 
     def read(line: SlowLine) -> bool:
         # More than the system would keep by itself.
@@ -264,7 +264,7 @@ def test_a_recording_is_whole_where_the_line_holds_more_than_an_answer_is_waited
     file.write_bytes(bytes(size))
     monkeypatch.setattr(view_server, "LimitedConnection", Impatient)
     bench = Bench()
-    monkeypatch.setattr(bench.server, "_find_file", lambda _name: file)
+    monkeypatch.setattr(bench.server._downloads, "_find", lambda _name: file)
     try:
         # It answers nothing.
         make = partial(slow_line, bench, "/recordings/x.mcap")
