@@ -11,6 +11,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from typing import Any
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, ParameterUninitializedException
@@ -145,19 +146,33 @@ def call_soon(node: Node, callback: Callable[[], object]) -> None:
     callback : callable
         Called once, without arguments.
     """
-
-    def call() -> None:
-        try:
-            callback()
-        except Exception as error:  # noqa: BLE001 - raised again
-            _raise_soon(node, error)
-
     if node.executor is not None:
-        node.executor.create_task(call)
+        node.executor.create_task(_call_safely, node, callback)
 
 
-def _raise_soon(node: Node, error: Exception) -> None:
-    """Raise on the executor's thread by a timer: a task that raises crashes the events executor (rclpy 7.1 and 9.1)."""
+def call_when_done(node: Node, future: Future[Any], callback: Callable[[Future[Any]], object]) -> None:
+    """Have something called when a future is done. Its exceptions end what those of a timer end.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Whose executor calls back, on its thread.
+    future : Future
+        Such as the answer of a service.
+    callback : callable
+        Called once, with the future.
+    """
+    future.add_done_callback(lambda done: _call_safely(node, lambda: callback(done)))
+
+
+def _call_safely(node: Node, callback: Callable[[], object]) -> None:
+    """Call something in a task: one that raises crashes the events executor (rclpy 7.1 and 9.1), a timer does not."""
+    try:
+        callback()
+    except Exception as raised:  # noqa: BLE001 - raised again
+        error = raised
+    else:
+        return
 
     def fail() -> None:
         node.destroy_timer(timer)

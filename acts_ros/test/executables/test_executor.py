@@ -22,10 +22,11 @@ import sys
 import threading
 import weakref
 from acts_core import errors
-from acts_ros.executor import call_soon, run
+from acts_ros.executor import call_soon, call_when_done, run
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.task import Future
 
 class Litter:
     def __init__(self):
@@ -53,9 +54,13 @@ class Example(Node):
             print("ticking", flush=True)
             if "soon" in sys.argv:
                 threading.Thread(target=call_soon, args=(self, self.tell)).start()
+            if "done" in sys.argv:
+                future = Future(executor=self.executor)
+                call_when_done(self, future, lambda answer: self.tell(answer.result()))
+                threading.Thread(target=future.set_result, args=("answered",)).start()
 
-    def tell(self):
-        print("on the executor's thread:", threading.current_thread() is threading.main_thread(), flush=True)
+    def tell(self, *words):
+        print(*words, "on the executor's thread:", threading.current_thread() is threading.main_thread(), flush=True)
         if "failing" in sys.argv:
             raise errors.RobotError("it has gone")
 
@@ -141,10 +146,21 @@ def test_another_thread_has_the_executors_thread_call_something() -> None:
     assert process.returncode == 0
 
 
-def test_an_error_of_what_another_thread_has_called_ends_the_process_in_order() -> None:
-    with started("soon", "failing") as process:
+def test_an_answer_is_handed_on_by_the_executors_thread() -> None:
+    with started("done") as process:
+        assert process.stdout is not None
+        for words in ("begun", "ticking", "answered on the executor's thread: True"):
+            assert process.stdout.readline() == f"{words}\n"
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("closed\n", "")
+    assert process.returncode == 0
+
+
+@pytest.mark.parametrize(("called", "words"), [("soon", ""), ("done", "answered ")])
+def test_an_error_of_what_the_executors_thread_was_to_call_ends_the_process_in_order(called: str, words: str) -> None:
+    with started(called, "failing") as process:
         output, errors = process.communicate(timeout=60)
-    assert output == "begun\nticking\non the executor's thread: True\nclosed\n"
+    assert output == f"begun\nticking\n{words}on the executor's thread: True\nclosed\n"
     assert errors.endswith("error: it has gone\n")
     assert process.returncode == 1
 

@@ -22,7 +22,7 @@ from std_srvs.srv import Trigger
 from acts_core.array import COUNT_MAX, MAX_SIDE
 from acts_core.errors import ViewRequestError
 from acts_core.sampling import SCHEME_NUMBERS
-from acts_ros.executor import call_soon
+from acts_ros.executor import call_soon, call_when_done
 from acts_ros.middleware import NotAskedError, ask
 from acts_view.recording.recording import Recording
 from acts_view.web.requests import STOPS, Answer, Request
@@ -190,7 +190,7 @@ class Control:
             response = done.result()
             answer(*((False, f"{service} gave no answer") if response is None else read(response)))
 
-        future.add_done_callback(on_done)
+        call_when_done(self._node, future, on_done)
 
     def _ask_settings(self, driver: str) -> None:
         client = self._client(f"{driver}/{_GET}", GetParameters)
@@ -215,7 +215,7 @@ class Control:
             self._asked[driver] = ask(client, GetParameters.Request(names=list(_PARAMETERS)))
         except NotAskedError:
             return  # the next look asks again
-        self._asked[driver].add_done_callback(on_done)
+        call_when_done(self._node, self._asked[driver], on_done)
 
     def _is_there(self, service: str, kind: type) -> bool:
         """Whether somebody serves it: the graph names it also where there are only clients, such as ours."""

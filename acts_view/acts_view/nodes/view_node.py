@@ -24,7 +24,7 @@ from acts_core.errors import ArrayError
 from acts_core.words import counted
 from acts_ros.clocks import steady_timer
 from acts_ros.diagnostics import OK, WARN, DiagnosticsReporter, Report
-from acts_ros.executor import call_soon
+from acts_ros.executor import call_soon, call_when_done
 from acts_ros.log import STEADY, log_of
 from acts_ros.middleware import NotAskedError, ask
 from acts_ros.parameters import declare, node_options
@@ -221,7 +221,7 @@ class ViewNode(PollingNode):
                 future = ask(client, GetParameters.Request(names=list(_SHAPE_PARAMETERS)))
             except NotAskedError:
                 return  # the next look asks again
-            future.add_done_callback(lambda done: self._on_shape(name, done))
+            call_when_done(self, future, lambda done: self._on_shape(name, done))
             self._asked[name] = client, future
 
     def _on_shape(self, name: str, done: Future[Any]) -> None:
