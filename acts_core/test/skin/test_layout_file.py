@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -211,25 +212,42 @@ TREES = st.recursive(
     SCALARS | WIRES,
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(KEYS | st.text(max_size=4), inner, max_size=5),
 )
-# Near enough to a layout that some of them are one.
-BLOCKS = st.fixed_dictionaries({"down": WIRES, "across": WIRES})
-PATCHES = st.fixed_dictionaries(
-    {"wires": BLOCKS | st.lists(BLOCKS, max_size=2)},
-    optional={
-        "at": st.lists(st.integers(0, 9), min_size=2, max_size=2),
-        "radius_m": st.floats(),
-        "link": st.text(max_size=3),
-        "pose": st.dictionaries(KEYS, TREES, max_size=3),
-        "pitch_m": SCALARS,
-    },
-)
-FILES = st.fixed_dictionaries(
-    {"patches": st.dictionaries(st.sampled_from(["a", "b", "c", "2"]), PATCHES | TREES, max_size=3)},
-    optional={"picture": st.just([8, 8]) | TREES, "pitch_m": SCALARS},
-)
+BEND_M = st.floats(0.02, 1.0) | st.floats(-1.0, -0.02)
 
 
-@given(st.dictionaries(KEYS, TREES, max_size=6) | FILES)
+def places(tree: Any) -> Iterator[tuple[Any, Any]]:
+    """Every value of a tree: what it is in, and its key there."""
+    for key, value in list(tree.items() if isinstance(tree, dict) else enumerate(tree)):
+        yield tree, key
+        if isinstance(value, dict | list):
+            yield from places(value)
+
+
+@st.composite
+def near_layouts(draw: st.DrawFn) -> dict[str, Any]:
+    """Two patches side by side; in half of the files, one value is another."""
+    cut = draw(st.integers(1, 7))
+    coordinates = st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3)
+    left = {"wires": {"down": "rows", "across": f"cols 0 to {cut - 1}"}, "radius_m": draw(BEND_M)}
+    right = {
+        "at": [0, cut],
+        "wires": [
+            {"down": "rows 7 to 4", "across": f"cols {cut} to 7"},
+            {"down": "rows 0 to 3", "across": f"cols 7 to {cut}"},
+        ],
+        "pitch_m": draw(st.floats(0.001, 0.004)),
+        "row_radius_m": draw(BEND_M),
+        "link": "tip",
+        "pose": {"position_m": draw(coordinates), "rpy_rad": draw(coordinates)},
+    }
+    tree = {"matrix": [8, 8], "picture": [8, 8], "pitch_m": 0.004, "patches": {"left": left, "right": right}}
+    if draw(st.booleans()):
+        within, key = draw(st.sampled_from(list(places(tree))))
+        within[key] = draw(TREES)
+    return tree
+
+
+@given(st.dictionaries(KEYS, TREES, max_size=6) | near_layouts() | near_layouts())
 def test_any_yaml_is_a_layout_or_is_refused_in_words(tmp_path_factory: pytest.TempPathFactory, tree: Any) -> None:
     path = tmp_path_factory.getbasetemp() / "any.yaml"
     path.write_text(yaml.safe_dump(tree))

@@ -46,7 +46,10 @@ def test_what_names_none_is_refused_with_what_is_allowed(words: str, told: str) 
     assert told in str(refused.value)
 
 
-@given(st.text(alphabet="rowcl=0123456789, \n-", max_size=30))
+WORDS = st.from_regex(r"row=[0-5]|col=[0-7]|[0-5],[0-7]", fullmatch=True)
+
+
+@given(st.text(alphabet="rowcl=0123456789, \n-", max_size=30) | st.lists(WORDS, max_size=4).map(" ".join))
 def test_any_text_names_taxels_or_is_refused(words: str) -> None:
     try:
         named = taxels_named(words, 5, 7)

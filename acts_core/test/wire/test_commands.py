@@ -176,7 +176,18 @@ def test_settings_round_trip(settings: BoardSettings) -> None:
     assert BoardSettings.from_bytes(settings.to_bytes()) == settings
 
 
-@given(st.binary(min_size=SETTINGS_SIZE, max_size=SETTINGS_SIZE))
+def with_bytes(settings: BoardSettings, changed: dict[int, int]) -> bytes:
+    data = bytearray(settings.to_bytes())
+    for place, value in changed.items():
+        data[place] = value
+    return bytes(data)
+
+
+PLACES = st.integers(0, SETTINGS_SIZE - 1)
+NEAR_SETTINGS = st.builds(with_bytes, board_settings(), st.dictionaries(PLACES, st.integers(0, 255), max_size=2))
+
+
+@given(NEAR_SETTINGS | st.binary(min_size=SETTINGS_SIZE, max_size=SETTINGS_SIZE))
 def test_settings_from_any_bytes_are_valid_or_refused(data: bytes) -> None:
     try:
         settings = BoardSettings.from_bytes(data)

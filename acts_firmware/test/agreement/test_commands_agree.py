@@ -4,6 +4,7 @@
 """The core carries out the commands that `acts_core` encodes, and its replies say so."""
 
 import dataclasses
+import itertools
 import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
@@ -36,38 +37,47 @@ FAST = settings(max_examples=60, deadline=None)
 # Own settings of schemes beyond those that stand below by name.
 FURTHER = [own for number, own in BOARD_OWN_SETTINGS.items() if number > 16]
 LAYOUT = struct.Struct(f"<BBBBHHHHHBBIQHHH{len(FURTHER)}H")
+# All but the seed have a range.
+FIELDS = 15 + len(FURTHER)
 LAST_SCHEME = max(SCHEME_NUMBERS.values())
 OTHERS = BoardSettings(scheme="tracking", m=99, threshold_counts=7, search_quota=20, led="on", seed=5)
 
 
-def near(first: int, last: int, largest: int) -> st.SearchStrategy[int]:
-    """Mostly allowed values, and some that are not."""
-    edges = [value for value in (first - 1, first, last, last + 1, largest) if 0 <= value <= largest]
-    return st.one_of(st.integers(first, last), st.integers(first, last), st.sampled_from(edges))
-
-
 @st.composite
 def raw_settings(draw: st.DrawFn) -> bytes:
-    rows, cols = draw(near(1, 64, 255)), draw(near(1, 64, 255))
-    m = draw(near(1, max(1, min(rows * cols, 4096)), 0xFFFF))
+    """Half of them allowed; of the others one field is beyond its range."""
+    odd = draw(st.one_of(st.none(), st.integers(0, FIELDS - 1)))
+    field = itertools.count()
+
+    def number(first: int, last: int, largest: int) -> int:
+        beyond = [
+            value for value in (first - 1, last + 1, largest) if 0 <= value <= largest and not first <= value <= last
+        ]
+        if next(field) == odd and beyond:
+            return draw(st.sampled_from(beyond))
+        return draw(st.one_of(st.integers(first, last), st.integers(first, last), st.sampled_from((first, last))))
+
+    rows, cols = number(1, 64, 255), number(1, 64, 255)
+    scheme, order = number(1, LAST_SCHEME, 255), number(0, 1, 255)
+    m = number(1, max(1, min(rows * cols, 4096)), 0xFFFF)
     return LAYOUT.pack(
         rows,
         cols,
-        draw(near(1, LAST_SCHEME, 255)),
-        draw(near(0, 1, 255)),
+        scheme,
+        order,
         m,
-        draw(near(0, 1023, 0xFFFF)),
-        draw(near(1, max(1, min(m, 4096)), 0xFFFF)),
-        draw(near(1, max(1, min(m, 4096)), 0xFFFF)),
-        draw(near(0, 1023, 0xFFFF)),
-        draw(near(0, 2, 255)),
-        draw(near(0, 3, 255)),
-        draw(near(0, 1_000_000, 2**32 - 1)),
+        number(0, 1023, 0xFFFF),
+        number(1, max(1, min(m, 4096)), 0xFFFF),
+        number(1, max(1, min(m, 4096)), 0xFFFF),
+        number(0, 1023, 0xFFFF),
+        number(0, 2, 255),
+        number(0, 3, 255),
+        number(0, 1_000_000, 2**32 - 1),
         draw(st.integers(0, 2**64 - 1)),
-        draw(near(0, max(rows - 1, 0), 0xFFFF)),
-        draw(near(0, max(cols - 1, 0), 0xFFFF)),
-        draw(near(0, 4096, 0xFFFF)),
-        *(draw(near(own.minimum, own.maximum, 0xFFFF)) for own in FURTHER),
+        number(0, max(rows - 1, 0), 0xFFFF),
+        number(0, max(cols - 1, 0), 0xFFFF),
+        number(0, 4096, 0xFFFF),
+        *(number(own.minimum, own.maximum, 0xFFFF) for own in FURTHER),
     )
 
 

@@ -25,7 +25,18 @@ from acts_view.web.server import MAX_UNANSWERED, ViewServer
 DEADLINE_S = 30.0
 
 
-@given(st.text() | st.binary() | st.builds(json.dumps, st.dictionaries(st.text(), st.integers() | st.text())))
+TEXT = st.text(max_size=8)
+NUMBERS = st.integers(-9, 9) | st.floats(-1e9, 1e9)
+WISHES = st.fixed_dictionaries(
+    {"id": st.integers(0, 9), "do": TEXT},
+    optional={"skin": TEXT, "name": TEXT, "value": st.none() | NUMBERS | TEXT, "asked_s": NUMBERS},
+)
+# In some of them one value is another, or a key that no request has.
+KEYS = st.sampled_from(["id", "do", "skin", "name", "value", "asked_s", "more"])
+CHANGES = st.dictionaries(KEYS, st.none() | st.booleans() | st.integers() | st.floats() | st.text(), max_size=1)
+
+
+@given(st.text() | st.binary() | st.builds(lambda wish, change: json.dumps({**wish, **change}), WISHES, CHANGES))
 def test_anything_is_a_request_or_refused(data: str | bytes) -> None:
     try:
         request = read_request(data)
