@@ -75,6 +75,30 @@ def test_a_layout_said_twice_disturbs_no_sampling() -> None:
         assert np.array_equal(firmware.read()[0].indices, other.read()[0].indices)
 
 
+@pytest.mark.parametrize("scheme", ["uniform", "random", "adaptive", "hybrid", "tracking"])
+def test_sampling_begins_anew_with_a_layout(scheme: str) -> None:
+    skin_map = SkinMap.of(layout("insole"))
+    with CoreFirmware() as firmware, CoreFirmware() as other:
+        for one in (firmware, other):
+            assert one.ask(encode_configure(1, BoardSettings(scheme=scheme, seed=3))).ok
+        for _ in range(3):
+            firmware.measure()
+            firmware.read()
+        for one in (firmware, other):
+            assert arrange(one, skin_map).ok
+            one.measure()
+        assert np.array_equal(firmware.read()[0].indices, other.read()[0].indices)
+
+
+def test_a_picture_with_a_side_that_no_skin_has_is_refused() -> None:
+    tall = SkinMap(128, 32, tuple(range(4096)), (0,) * 4096)
+    with CoreFirmware() as firmware:
+        assert firmware.ask(encode_configure(1, BoardSettings(rows=64, cols=64))).ok
+        for one in (tall, dataclasses.replace(tall, rows=32, cols=128)):
+            reply = arrange(firmware, one)
+            assert (reply.status, reply.state.map_crc32) == (ReplyStatus.MAP_IMPOSSIBLE, 0)
+
+
 def test_layouts_that_are_none_are_refused_and_leave_the_matrix() -> None:
     skin_map = SkinMap.of(layout("glove"))
     twice = dataclasses.replace(skin_map, taxels=(*skin_map.taxels[:-1], skin_map.taxels[0]))
