@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 import pytest
@@ -337,17 +337,19 @@ def test_the_gait_is_of_the_last_time() -> None:
     assert 4 <= tracker.gait().feet[0].steps <= 5
 
 
-@settings(max_examples=40, deadline=None)
-@given(
-    st.lists(
-        st.tuples(
-            st.floats(0.0, 0.2) | st.floats(-1.5, 3.0),
-            st.sampled_from([0.0, 0.3, 0.5, 1.0]) | st.floats(-1e9, 1e9) | st.sampled_from([100.0, np.inf, np.nan]),
-        ),
-        min_size=50,
-        max_size=150,
-    )
+def sampled_step(stance: int, swing: int, force: float) -> list[tuple[float, float]]:
+    return [(0.02, force)] * stance + [(0.02, 0.0)] * swing
+
+
+ODD_SAMPLES = st.tuples(
+    st.floats(0.0, 0.2) | st.floats(-1.5, 3.0),
+    st.sampled_from([0.0, 0.3, 0.5, 1.0]) | st.floats(-1e9, 1e9) | st.sampled_from([100.0, np.inf, np.nan]),
 )
+STEPS = st.builds(sampled_step, st.integers(3, 60), st.integers(3, 60), st.floats(0.3, 1.5))
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(STEPS | st.lists(ODD_SAMPLES, max_size=5), min_size=10, max_size=20).map(chain.from_iterable).map(list))
 def test_of_any_samples_steps_come_one_after_the_other(samples: list[tuple[float, float]]) -> None:
     tracker, at_s = FootTracker(), 0.0
     # It has walked before, and so its loads are known.
