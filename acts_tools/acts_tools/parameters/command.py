@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     SettingsError
         There is no such node or parameter, a value has another type, or the node refuses it.
     """
-    node_name = full_name(arguments.node.strip("/"), "name of a node", has_names_below=True)
+    node_name = full_name(arguments.node, "name of a node", has_names_below=True)
     pairs = [word.partition("=") for word in arguments.parameters]
     for name, equals, text in pairs:
         if not name:

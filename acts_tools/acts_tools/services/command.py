@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     ActsError
         The node refuses, or does not answer.
     """
-    name = "" if arguments.service is None else full_name(arguments.service.strip("/"), "name of a service")
+    name = "" if arguments.service is None else full_name(arguments.service, "name of a service")
     # Imported here: rclpy takes a second.
     from rclpy.executors import SingleThreadedExecutor
     from std_srvs.srv import Trigger

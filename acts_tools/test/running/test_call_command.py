@@ -102,5 +102,7 @@ def test_a_service_that_nobody_offers_is_told(
     )
     assert main(["call", "left hand/grasp"]) == 1
     assert "error: 'left hand/grasp' is no name of a service" in capsys.readouterr().err
+    assert main(["call", "/"]) == 1
+    assert "error: '/' is no name of a service" in capsys.readouterr().err
     assert main(["call"]) == 1
     assert "nobody offers a std_srvs/srv/Trigger" in capsys.readouterr().err

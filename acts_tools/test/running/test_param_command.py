@@ -83,3 +83,5 @@ def test_a_node_that_is_not_there_is_named(capsys: pytest.CaptureFixture[str], m
     assert "no node offers /plate/gain/list_parameters" in capsys.readouterr().err
     assert main(["param", "left hand"]) == 1
     assert capsys.readouterr().err.startswith("error: 'left hand' is no name of a node: allowed are letters")
+    assert main(["param", "/"]) == 1
+    assert capsys.readouterr().err.startswith("error: '/' is no name of a node: allowed are letters")
