@@ -60,6 +60,16 @@ def test_legends_are_beside_the_diagrams(page: Any, colours: tuple[str, str], ex
     assert all(axis.width > 150 for axis in axes)
 
 
+@pytest.mark.parametrize("runs", [[1.0], [1.0, 2.0], [float(run) for run in range(1, 21)]])
+def test_points_at_whole_numbers_have_whole_numbers_below_them(page: Any, runs: list[float]) -> None:
+    panels = [Panel(title, curves=[Curve("runs", runs, runs, OURS, "C0", points=True)]) for title in "ab"]
+    diagrams(page, panels)
+    for axes in page.axes[:2]:
+        ticks = axes.get_xticks()
+        assert set(ticks) & set(runs)
+        assert all(tick == round(tick) for tick in ticks)
+
+
 @pytest.mark.parametrize("image_at", [0, 1])
 def test_the_scale_of_an_image_is_beside_the_diagrams(page: Any, image_at: int) -> None:
     curve = Panel("a curve", curves=[Curve("a line with a long name", [0.0, 1.0], [0.0, 1.0], OURS, "C0")])

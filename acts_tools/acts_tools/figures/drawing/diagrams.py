@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from matplotlib.colors import Normalize
@@ -41,6 +42,8 @@ def draw_panel(axes: Any, panel: Panel, looks: Looks, times: Normalize) -> None:
         axes.set_yscale("log")
     if panel.x_names:
         axes.set_xticks(range(1, len(panel.x_names) + 1), panel.x_names)
+    elif not panel.log_x and _are_counted(panel.curves):
+        axes.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
     if panel.picture is None:
         if panel.equal:
             _bound(axes, panel)
@@ -64,6 +67,11 @@ def _draw_curve(axes: Any, curve: Curve, panel: Panel, looks: Looks, times: Norm
     axes.plot(curve.x, curve.y, color=colour, label=curve.label or None, **looks.line(curve))
     if curve.low:
         axes.fill_between(curve.x, curve.low, curve.high, color=colour, alpha=0.15, linewidth=0)
+
+
+def _are_counted(curves: Sequence[Curve]) -> bool:
+    """Whether all are points at whole numbers, such as those of runs."""
+    return bool(curves) and all(curve.points and all(x == round(x) for x in curve.x) for curve in curves)
 
 
 def _limit_y(axes: Any, panel: Panel) -> None:
