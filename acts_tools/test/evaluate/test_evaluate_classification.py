@@ -148,6 +148,23 @@ def test_a_picture_shows_every_m_and_accuracies_however_low(tmp_path: Path, monk
     pyplot.close(drawn[0])
 
 
+@pytest.mark.parametrize(("m", "is_published"), [(64, True), (55, False)])
+def test_a_legend_names_what_is_drawn(
+    m: int, is_published: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    over_m = [{"m": m, "accuracy": 0.8, "low": 0.7, "high": 0.9}]
+    over_time = [{"time_ms": 2, "accuracy": 0.3, "low": 0.2, "high": 0.4}]
+    drawn: list[Figure] = []
+    monkeypatch.setattr(pyplot, "close", drawn.append)
+    draw(tmp_path / "c.png", {"over_m": {"paper": over_m}, "over_time": {"paper": over_time}}, 64)
+    lines = {str(line.get_label()): line for line in drawn[0].axes[0].get_lines()}
+    assert ("published (Fig. 4F)" in lines) == is_published
+    # A line needs two points to be seen; a single one has a marker.
+    assert all(line.get_marker() != "None" for line in lines.values())
+    monkeypatch.undo()
+    pyplot.close(drawn[0])
+
+
 def test_an_m_that_is_named_twice_counts_once(tmp_path: Path) -> None:
     out = tmp_path / "out.json"
     few = ("--arms", 1, "--presses", 1, "--columns", 2, "--objects", *SIX[:2])

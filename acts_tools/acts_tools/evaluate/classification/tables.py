@@ -58,7 +58,10 @@ def draw(path: Path, results: dict[str, Any], m_over_time: int) -> None:
             axes.set(ylabel="accuracy", ylim=(0, 1.02))
             axes.grid(alpha=0.3)
         ms = [m for m in PUBLISHED_OVER_M if any(cell["m"] == m for cell in results["over_m"]["paper"])]
-        left.plot(ms, [PUBLISHED_OVER_M[m] for m in ms], "k:", lw=1, label="published (Fig. 4F)")
+        if ms:
+            # Of a line through a single point nothing would be seen.
+            look = "k:" if len(ms) > 1 else "k."
+            left.plot(ms, [PUBLISHED_OVER_M[m] for m in ms], look, ms=3, lw=1, label="published (Fig. 4F)")
         cells = [cell for curve in results["over_m"].values() for cell in curve]
         shown = sorted({cell["m"] for cell in cells})
         left.set_xscale("log", base=2)
