@@ -196,8 +196,10 @@ class _Changes:
         for name, info in describe(type(changed)).items():
             value = getattr(changed, name)
             if info.changeable is Changeable.UNCONFIGURED and value != getattr(self._settings, name):
+                # Of the nodes of ACTS only a driver has this state.
+                ask = f"acts driver -n {self._where.rpartition('/')[0].lstrip('/') or '/'}"
                 return (
-                    f"{name} can be changed only while {self._where} is unconfigured: deactivate it and clean it up "
-                    f"before (ros2 lifecycle set {self._where} cleanup)"
+                    f"{name} can be changed only while {self._where} is unconfigured: `{ask} deactivate` and `{ask} "
+                    f"cleanup` before, `configure` and `activate` after (or `ros2 lifecycle set {self._where} ...`)"
                 )
         return ""

@@ -154,6 +154,9 @@ def test_some_change_only_while_the_node_is_unconfigured(context: Context) -> No
     refused = node.set_parameters([Parameter("port", value="a")])[0]
     assert not refused.successful
     assert refused.reason.startswith("port can be changed only while /plate/example is unconfigured")
+    # Also for those who have no `ros2`.
+    for step in ("deactivate", "cleanup"):
+        assert f"`acts driver -n plate {step}`" in refused.reason
     # What it has already is no change.
     assert node.set_parameters([Parameter("port", value="")])[0].successful
     is_unconfigured = True
