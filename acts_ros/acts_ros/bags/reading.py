@@ -203,8 +203,10 @@ def _check_chunks(file: Path) -> None:
     try:
         with file.open("rb") as stream:
             largest = largest_chunk(stream)
-    except (OSError, RecordingError) as error:
+    except OSError as error:
         raise RecordingError(f"{file}: {error}") from error
+    except RecordingError as error:
+        raise RecordingError(f"{file}: {error}; {_NEEDED}") from error
     if largest > CHUNK_BYTES_MAX:
         raise RecordingError(
             f"{file}: a chunk of {largest / 1e6:.0f} MB unpacked; allowed are {CHUNK_BYTES_MAX / 1e6:.0f} MB"

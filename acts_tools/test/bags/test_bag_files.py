@@ -329,7 +329,7 @@ def test_a_bit_that_is_wrong_in_a_chunk_is_no_message(share: float, bit: int, cl
 def test_what_is_no_bag_is_refused(tmp_path: Path, name: str, content: bytes | None, message: str) -> None:
     if content is not None:
         (tmp_path / name).write_bytes(content)
-    with pytest.raises(RecordingError, match=message):
+    with pytest.raises(RecordingError, match=f"{message}.*; give the folder that `acts record`"):
         read(tmp_path / name)
 
 
