@@ -54,6 +54,9 @@ DEFAULT_RATE_HZ = 1.0
 """Rate of single frames, which are recorded without one: slow enough to look at each [Hz]."""
 
 
+_RATE_HINT = "; add it, or export the bag again with --rate 100"
+
+
 def export_recording(
     npz_path: Path,
     out_npy: Path,
@@ -107,7 +110,7 @@ def export_recording(
         if kind is not None:
             raise RecordingError(f"{npz_path}: has no kind of frames to choose {kind!r} from")
         chosen, labels = _choose_recordings(content, len(frames), recordings, label, max_frames, npz_path)
-        rate_hz = rate_hz_of(npz_path, _need(content, "rate_hz", npz_path))
+        rate_hz = rate_hz_of(npz_path, _need(content, "rate_hz", npz_path, hint=_RATE_HINT))
     chosen = chosen[:max_frames]
     if not len(chosen):
         raise RecordingError(f"{npz_path}: no frames are selected")
@@ -124,9 +127,9 @@ def _load(path: Path) -> dict[str, NDArray]:
     return {"frames": content["image"], **content} if "image" in content else content
 
 
-def _need(content: dict[str, NDArray], name: str, path: Path) -> NDArray:
+def _need(content: dict[str, NDArray], name: str, path: Path, hint: str = "") -> NDArray:
     if name not in content:
-        raise RecordingError(f"{path}: has no array {name!r}, only {', '.join(sorted(content)) or 'nothing'}")
+        raise RecordingError(f"{path}: has no array {name!r}, only {', '.join(sorted(content)) or 'nothing'}{hint}")
     return content[name]
 
 

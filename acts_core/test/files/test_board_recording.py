@@ -112,6 +112,8 @@ def test_frames_have_the_name_that_an_export_of_a_bag_gives_them(tmp_path: Path,
     image = np.arange(120, dtype=np.uint16).reshape(6, 4, 5)
     export_recording(evaluation(tmp_path / "in.npz", frames=None, image=image), out)
     np.testing.assert_array_equal(np.load(out), image)
+    with pytest.raises(RecordingError, match=r"'rate_hz'.*; add it, or export the bag again with --rate 100"):
+        export_recording(evaluation(tmp_path / "in.npz", frames=None, rate_hz=None, image=image), out)
 
 
 def test_single_frames_are_rounded(tmp_path: Path, out: Path) -> None:
