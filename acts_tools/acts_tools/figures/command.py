@@ -56,7 +56,11 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help=f"replaces figures there (default: {_OUT}, with --fast {_OUT_FAST})"
     )
-    parser.add_argument("--fast", action="store_true", help="few presses and drops, rough numbers: a minute for all")
+    parser.add_argument(
+        "--fast",
+        action="store_true",
+        help="few presses and drops, rough numbers: one to two minutes for all, several on a busy machine",
+    )
     parser.add_argument(
         "--seed", type=random_seed, default=1, metavar="X", help="of everything random (default: %(default)s)"
     )
