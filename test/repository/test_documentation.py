@@ -200,3 +200,18 @@ def test_files_and_modules_that_pages_and_comments_name_exist() -> None:
             wrong += [name for name in modules if not is_module(name)]
             missing += [f"{source.relative_to(ROOT)}:{number} names {name}" for name in wrong]
     assert missing == []
+
+
+def test_headings_that_messages_and_comments_name_exist() -> None:
+    named = [
+        (source.relative_to(ROOT), ROOT / page, heading.strip())
+        for source in SOURCES
+        for page, heading in re.findall(r'\b((?:docs/)?\w+\.md), "?([A-Z][^".`:;)\n]+)', source.read_text())
+    ]
+    assert len(named) > 5
+    missing = [
+        f"{source} names {page.name}, {heading}"
+        for source, page, heading in named
+        if not re.search(rf"^#+ {re.escape(heading)}", page.read_text(), flags=re.MULTILINE)
+    ]
+    assert missing == []

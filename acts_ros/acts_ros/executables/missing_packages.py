@@ -17,4 +17,4 @@ def advice_about(error: ImportError) -> str:
     package = (error.name or "").partition(".")[0]
     if package not in _FROM_PIP:
         return ""
-    return f"{error.name} is not installed, or too old: pip install -r requirements-ros.txt (README.md, With ROS 2)"
+    return f"{error.name} is not installed, or too old: pip install -r requirements-ros.txt (README.md, On ROS 2)"
