@@ -45,7 +45,7 @@ def test_recovery_is_compared_with_what_is_installed(
         for name in ("sklearn", "spams"):
             there = f"{kind}.{name}_ratio" in figures
             if not there:
-                assert str(figures[f"{kind}.{name}_us"].value).startswith("not installed: pip install s")
+                assert str(figures[f"{kind}.{name}_us"].value).startswith("not installed: ./acts run pip install s")
             assert there <= installed
 
 
@@ -93,7 +93,7 @@ def test_learning_is_compared_at_equal_quality(workbench: Workbench, monkeypatch
     assert isinstance(figures["ours_error"], float)
     assert 0 < figures["ours_error"] < 100
     if "ratio" not in figures:
-        assert figures["sklearn_s"] == "not installed: pip install scikit-learn"
+        assert figures["sklearn_s"] == "not installed: ./acts run pip install scikit-learn"
 
 
 def test_what_is_left_unexplained(monkeypatch: pytest.MonkeyPatch) -> None:

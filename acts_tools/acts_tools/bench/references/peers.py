@@ -22,4 +22,4 @@ def peer(name: tuple[str, str], submodule: str = "") -> ModuleType | None:
 
 def missing(name: tuple[str, str]) -> str:
     """Text in place of a figure of a missing library."""
-    return f"not installed: pip install {name[1]}"
+    return f"not installed: ./acts run pip install {name[1]}"
