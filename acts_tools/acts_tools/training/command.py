@@ -64,7 +64,7 @@ def add_parser(subparsers: Any) -> None:
         type=Path,
         metavar="PATH",
         help="learn from recordings, not the contact model: npz files with `frames` (n, rows, cols), or bags with full "
-        "frames (images in mono16, or samples of the scheme raster)",
+        "frames (images in mono16, or samples of the scheme raster, which lie as the wires do)",
     )
     parser.add_argument("--topic", default="", help="topic of the bags (default: the only one with full frames)")
     parser.add_argument(
