@@ -50,7 +50,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("topic", metavar="TOPIC", help="topic, such as /hand/command")
     parser.add_argument("type", metavar="TYPE", help="type of its messages, such as sensor_msgs/msg/JointState")
     parser.add_argument("values", nargs="?", default="{}", metavar="VALUES", help="YAML (default: %(default)s)")
-    parser.add_argument("-r", "--rate-hz", type=real(0.001, 1000), default=1.0, metavar="HZ", help="(default: 1)")
+    parser.add_argument(
+        "-r",
+        "--rate-hz",
+        type=real(0.001, 1000),
+        default=1.0,
+        metavar="HZ",
+        help="messages per second (default: 1)",
+    )
     parser.add_argument("-n", "--number", type=at_least_one, metavar="N", help="end after this many messages")
     parser.add_argument("-d", "--duration", type=seconds, metavar="SECONDS", help="end by itself after this time")
 

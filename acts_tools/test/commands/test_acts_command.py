@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 import errno
 import os
 import re
@@ -51,6 +52,30 @@ def test_the_help_of_each_command_has_examples_that_it_takes(name: str, capsys: 
         if name == "launch":  # as `main` does
             words.sort(key=lambda word: word.startswith("-"))
         parser.parse_args(words)
+
+
+def _subcommands(parser: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
+    """Those of a parser, and those of each of them; of several words, such as ``evaluate slip``, too."""
+    found = []
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for child in action.choices.values():
+                found += [child, *_subcommands(child)]
+    return found
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_each_command_says_what_it_is_for_and_what_options_are_by_default(name: str) -> None:
+    # Others have a line only, until they are chosen.
+    for parser in _subcommands(_build_parser(name)[0]):
+        if parser.prog.split()[1] != name:
+            continue
+        assert parser.description, parser.prog
+        for action in parser._actions:
+            if isinstance(action, argparse._HelpAction | argparse._SubParsersAction):
+                continue
+            says_it = "default" in (action.help or "")
+            assert says_it or action.default in (None, False, "", []), f"{parser.prog} {action.option_strings}"
 
 
 def test_without_a_command_it_shows_its_help(capsys: pytest.CaptureFixture[str]) -> None:

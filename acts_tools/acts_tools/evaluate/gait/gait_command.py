@@ -71,7 +71,7 @@ def add_parser(commands: Any) -> None:
         nargs="+",
         default=list(_RATES_HZ),
         metavar="HZ",
-        help="of simulated insoles",
+        help=f"frames per second of simulated insoles (default: {' '.join(f'{rate:g}' for rate in _RATES_HZ)})",
     )
     add_seeds(parser, 20, "simulated walks at each rate")
     parser.set_defaults(evaluate=_run)

@@ -20,7 +20,13 @@ from acts_tools.evaluate.images.tasks import HEADER, evaluate_shown, line, requi
 
 def add_parser(commands: Any) -> None:
     """Add ``acts evaluate events``."""
-    parser = commands.add_parser("events", help="score recovery on simulated bounces, slides and taps")
+    parser = commands.add_parser(
+        "events",
+        help="score recovery on simulated bounces, slides and taps",
+        description="Let simulated objects bounce, slide and tap on the skin, sample them with each scheme and M as "
+        "the board does, recover the image by each method, and compare it with the truth. docs/recovery.md explains "
+        "the numbers.",
+    )
     parser.add_argument("--event", nargs="+", default=list(EVENTS), choices=tuple(EVENTS), help="default: all")
     options.add_arguments(parser, noise_counts=3.0)
     parser.add_argument(

@@ -27,7 +27,12 @@ from acts_tools.training.frames import model_frames
 
 def add_parser(commands: Any) -> None:
     """Add ``acts evaluate recovery``."""
-    parser = commands.add_parser("recovery", help="score recovery on recordings, or on presses of the contact model")
+    parser = commands.add_parser(
+        "recovery",
+        help="score recovery on recordings, or on presses of the contact model",
+        description="Sample full frames with each scheme and M as the board does, recover the image by each method, "
+        "and compare it with the full frame. docs/recovery.md explains the numbers.",
+    )
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument(
         "--frames",
@@ -42,7 +47,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--peaks", action="store_true", help="of each recording only one sampled frame, at its largest sum of counts"
     )
-    parser.add_argument("--every", type=at_least_one, default=1, metavar="N", help="only every Nth recording")
+    parser.add_argument(
+        "--every", type=at_least_one, default=1, metavar="N", help="only every Nth recording (default: 1)"
+    )
     parser.set_defaults(evaluate=_run)
 
 

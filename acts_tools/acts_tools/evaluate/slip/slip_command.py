@@ -75,7 +75,11 @@ def add_parser(commands: Any) -> None:
         "--rate-hz", type=real(1e-3, 1e6), metavar="R", help="frames per second (default: what the file says)"
     )
     parser.add_argument(
-        "--pitch-m", type=real(1e-4, 0.1), default=ArrayGeometry().pitch_m, metavar="P", help="taxel pitch [m]"
+        "--pitch-m",
+        type=real(1e-4, 0.1),
+        default=ArrayGeometry().pitch_m,
+        metavar="P",
+        help="taxel pitch [m] (default: %(default)s)",
     )
     parser.add_argument(
         "--noise-counts",
