@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import json
 import re
@@ -33,11 +34,18 @@ def message_class(name: str) -> type:
     """
     package, kind, short = _split(name)
     try:
-        found = getattr(importlib.import_module(f"{package}.{kind}"), short)
-    except (ImportError, AttributeError) as error:
+        module = importlib.import_module(f"{package}.{kind}")
+    except ImportError as error:
         raise RecordingError(
             f"unknown message type '{name}': install or source the workspace that has package '{package}'"
         ) from error
+    found = getattr(module, short, None)
+    if found is None:
+        near = difflib.get_close_matches(short, [one for one in dir(module) if one[0].isupper()], n=1)
+        what = f"did you mean {near[0]}?" if near else "it may be of another release"
+        raise RecordingError(
+            f"unknown message type '{name}': the package '{package}' that is installed has no such message; {what}"
+        )
     assert isinstance(found, type)
     return found
 

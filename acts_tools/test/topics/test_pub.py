@@ -216,7 +216,15 @@ def test_a_type_that_subscribers_do_not_have_is_refused() -> None:
             "TYPE = std_msgs/UInt8: allowed is a message, such as sensor_msgs/msg/JointState",
         ),
         (["/word", "std_srvs/srv/Trigger"], "TYPE = std_srvs/srv/Trigger: allowed is a message"),
-        (["/word", "std_msgs/msg/Uint8"], "unknown message type 'std_msgs/msg/Uint8'"),
+        (
+            ["/word", "std_msgs/msg/Uint8"],
+            "unknown message type 'std_msgs/msg/Uint8': the package 'std_msgs' that is installed has no such message; "
+            "did you mean UInt8?",
+        ),
+        (
+            ["/word", "std_msg/msg/UInt8"],
+            "unknown message type 'std_msg/msg/UInt8': install or source the workspace that has package 'std_msg'",
+        ),
         (["/word", "std_msgs/msg/UInt8", "data: x"], "data = 'x': allowed is uint8"),
     ],
 )
