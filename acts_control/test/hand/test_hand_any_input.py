@@ -60,7 +60,7 @@ def made_regions(seed: int) -> list[RegionContact]:
             name,
             LEAP_RIGHT.regions[name].link,
             int(rng.choice([0, 1, 9, 40, 65535])),
-            float(rng.choice([0.0, 0.3, 1.0, 5.0, 60.0, -1.0, 1e-30, 1e6])),
+            float(rng.choice([0.0, 0.3, 1.0, 5.0, 60.0, 1e-3, 1e-30, 1e6])),
             vector(float(rng.choice([0.0, 0.03, 0.3, 10.0]))),
             vector(float(rng.choice([0.0, 0.5, 1.0]))),
             number(),
@@ -69,7 +69,7 @@ def made_regions(seed: int) -> list[RegionContact]:
             number(),
             number(),
             vector(1.0),
-            float(rng.choice([0.0, 1e-4, 1e-2, -1.0])),
+            float(rng.choice([0.0, 1e-4, 1e-2, 1.0])),
             bool(rng.integers(2)),
         )
 

@@ -107,21 +107,44 @@ def test_touch_that_is_old_when_it_comes_is_told_as_such_and_as_missing_once_it_
     assert hand.supervisor.grasp() == "no touch for 0.4 s: is the skin's topic `regions` published?"
 
 
+AMOUNT, PART = "allowed is 0 to 1e+06", "for each part"
+
+
 @pytest.mark.parametrize(
-    "broken",
+    ("broken", "told"),
     [
-        region("index_distal", math.nan),
-        region("index_distal", 0.5, centre_m=(0.0, math.inf, 0.0)),
-        region("index_distal", 0.5, slip_m=math.nan, slipping=True),
-        region("index_distal", 0.5, centre_m=(0.0, 1e6, 0.0)),
-        region("index_distal", 0.5, normal=(0.0, 0.0, 2.0)),
+        (region("index_distal", math.nan), f"force_n = nan: {AMOUNT}"),
+        (
+            region("index_distal", 0.5, centre_m=(0.0, math.inf, 0.0)),
+            f"centre_m = (0.0, inf, 0.0): allowed is -10 to 10 {PART}",
+        ),
+        (region("index_distal", 0.5, slip_m=math.nan, slipping=True), f"slip_m = nan: {AMOUNT}"),
+        (
+            region("index_distal", 0.5, centre_m=(0.0, 1e6, 0.0)),
+            f"centre_m = (0.0, 1000000.0, 0.0): allowed is -10 to 10 {PART}",
+        ),
+        (
+            region("index_distal", 0.5, normal=(0.0, 0.0, 2.0)),
+            f"normal = (0.0, 0.0, 2.0): allowed is -1.01 to 1.01 {PART}",
+        ),
+        (
+            region("index_distal", 0.5, motion_m_s=(math.nan, 0.0, 0.0)),
+            f"motion_m_s = (nan, 0.0, 0.0): allowed is -1e+06 to 1e+06 {PART}",
+        ),
+        # Nothing pulls a skin: fingers would close on and on against such a force.
+        (region("index_distal", -5.0), f"force_n = -5: {AMOUNT}"),
+        (region("index_distal", 0.5, area_m2=-1e-4), f"area_m2 = -0.0001: {AMOUNT}"),
+        (region("index_distal", 0.5, peak_n=-0.1), f"peak_n = -0.1: {AMOUNT}"),
+        (region("index_distal", 0.5, spread_m=-0.002), f"spread_m = -0.002: {AMOUNT}"),
+        (region("index_distal", 0.5, slip_m=-1e-4), f"slip_m = -0.0001: {AMOUNT}"),
     ],
 )
-def test_touch_with_numbers_that_cannot_be_counts_as_not_come(broken: RegionContact) -> None:
+def test_touch_with_numbers_that_cannot_be_counts_as_not_come(broken: RegionContact, told: str) -> None:
     hand = a_holding_hand()
     held = hand.goal.copy()
     hand.step([broken], steps=40)
     assert hand.supervisor.status.refused == 40
+    assert hand.supervisor.status.refusal == f"region 'index_distal' cannot have {told}"
     assert hand.supervisor.status.is_stale
     assert hand.goal == pytest.approx(held)
 

@@ -14,8 +14,11 @@ from acts_core.skin import RegionContact
 # Touch that is stamped further ahead of the clock is by another clock: it would count as the newest until then.
 _FUTURE_S = 0.05
 
-# Beyond what any skin of a hand says. With places farther off and longer normals, equations could not be solved.
-_LARGEST, _FARTHEST_M, _LONGEST_NORMAL = 1e6, 10.0, 1.01
+# What no skin of a hand goes beyond. Nothing pulls it: fingers would close on and on against such a force. With places
+# farther off and longer normals, equations could not be solved.
+_LARGEST = 1e6
+_AMOUNTS = ("force_n", "area_m2", "peak_n", "spread_m", "concentration", "sharpness", "slip_m")
+_LARGEST_PARTS = {"motion_m_s": _LARGEST, "centre_m": 10.0, "normal": 1.01}
 _LONGEST_NAME = 64
 _MOST_NAMES = 3
 
@@ -107,9 +110,8 @@ class HandTouch:
                 return f"{said}; in the description of the hand it is on {known.link!r}"
             links = ", ".join(link.name for link in self._hand.links)
             return f"{said}; the hand has {self._hand.base}, {links}"
-        if not _can_be(region):
-            return f"region {name!r} has numbers that no skin says"
-        return ""
+        impossible = _impossible(region)
+        return f"region {name!r} cannot have {impossible}" if impossible else ""
 
 
 def no_touch(age_s: float, comes_old_s: float = 0.0) -> str:
@@ -126,14 +128,14 @@ def _listed(names: Sequence[str]) -> str:
     return f"{shown} and {more} more" if more > 0 else shown or "no region at all"
 
 
-def _can_be(region: RegionContact) -> bool:
-    """Whether all numbers are such as a skin may say; NaN is not."""
-    numbers = (
-        *(region.force_n, region.area_m2, region.peak_n, region.spread_m, region.concentration),
-        *(region.sharpness, region.slip_m, *region.motion_m_s),
-    )
-    return (
-        all(abs(number) <= _LARGEST for number in numbers)
-        and all(abs(place_m) <= _FARTHEST_M for place_m in region.centre_m)
-        and all(abs(part) <= _LONGEST_NORMAL for part in region.normal)
-    )
+def _impossible(region: RegionContact) -> str:
+    """A number that no skin says, and what is allowed, in words; empty where there is none. NaN is one."""
+    for name in _AMOUNTS:
+        amount = getattr(region, name)
+        if not 0.0 <= amount <= _LARGEST:
+            return f"{name} = {amount:g}: allowed is 0 to {_LARGEST:g}"
+    for name, largest in _LARGEST_PARTS.items():
+        vector = getattr(region, name)
+        if not all(abs(part) <= largest for part in vector):
+            return f"{name} = {vector}: allowed is {-largest:g} to {largest:g} for each part"
+    return ""
