@@ -13,17 +13,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from arm_in_process import ArmInProcess
 from child_process import Process
 from control_rig import Bench, node_command
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Vector3Stamped
 from waiting import wait_for
 
+from acts_control.ball import LoopStatus, Phase
+from acts_control.ball.nodes.ball_control_node import BallControlNode
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_core.errors import REFUSED_EXIT_CODE
 from acts_core.runtime import StreamCounter
-from acts_msgs.msg import BalanceStatus
+from acts_msgs.msg import BalanceStatus, BallReference, BallState
+from acts_ros.diagnostics import WARN
 from acts_ros.messages import set_stamp
 from acts_ros.qos import STATE, STREAM
 
@@ -172,6 +176,60 @@ def test_contacts_in_another_frame_are_left_out_and_reported(bench: Bench) -> No
     bench.publish_contact(3, bench.now_ns(), 0.01, -0.02, frame_id="arm/plate")
     wait_for(lambda: bool(bench.states), "a state")
     assert (bench.states[-1].header.frame_id, bench.states[-1].contacts_received) == ("arm/plate", 1)
+
+
+@pytest.mark.parametrize("bench", [62], indirect=True)
+def test_estimates_and_references_in_another_frame_are_left_out_and_reported(bench: Bench) -> None:
+    node = BallControlNode(lambda _settings: ArmInProcess(), context=bench.context, namespace="/plate", cli_args=[])
+    bench.add(node)
+
+    def tell(frame_id: str) -> None:
+        state, reference = BallState(valid=True), BallReference()
+        for message in (state, reference):
+            message.header.frame_id = frame_id
+            message.position.x = 0.03
+        node._on_state(state)
+        node._on_reference(reference)
+
+    node._loop.status = LoopStatus(phase=Phase.WAITING, reason="waiting for a ball", touch_age_s=0.0)
+    tell("camera")
+    tell("base_link")
+    assert (node._loop.ball, node._loop.reference) == (None, None)
+    level, words, values = node._report()
+    assert level == WARN
+    assert words == (
+        "waiting: waiting for a ball; 2 estimates in the frame 'base_link' were left out: that of the skin is 'plate' "
+        "(parameter frame_id); 2 references in the frame 'base_link' were left out: that of the skin is 'plate' "
+        "(parameter frame_id)"
+    )
+    assert values["in_another_frame"] == 4
+    assert node._report()[1] == "waiting: waiting for a ball"
+    # Made by hand, they may name none.
+    for frame_id in ("plate", ""):
+        node._loop.ball = node._loop.reference = None
+        tell(frame_id)
+        assert node._loop.ball is not None
+        assert node._loop.ball.ball.x_m == 0.03
+        assert node._loop.reference is not None
+        assert node._loop.reference.reference.x_m == 0.03
+    assert node._report()[1] == "waiting: waiting for a ball"
+
+
+@pytest.mark.parametrize("bench", [62], indirect=True)
+def test_tilts_in_another_frame_are_left_out_and_reported(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    node = BallStateNode(context=bench.context, namespace="/plate", cli_args=[])
+    bench.add(node)
+    told: list[tuple[float, float]] = []
+    monkeypatch.setattr(node, "set_tilt", lambda _stamp_ns, tilt_rad: told.append(tilt_rad))
+    for frame_id in ("base_link", "plate", ""):
+        tilt = Vector3Stamped()
+        tilt.header.frame_id = frame_id
+        tilt.vector.x = 0.1
+        node._on_tilt(tilt)
+    assert told == [(0.1, 0.0)] * 2
+    _, words, values = node._report()
+    assert "1 tilt in the frame 'base_link' was left out: that of the skin is 'plate' (parameter frame_id)" in words
+    assert values["in_another_frame"] == 1
 
 
 @pytest.mark.parametrize("bench", [63], indirect=True)

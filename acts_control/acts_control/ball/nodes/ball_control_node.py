@@ -21,6 +21,7 @@ from acts_control.ball import Ball, BallReport, ControlLoop, LoopConfig, LoopSta
 from acts_control.ball.nodes.ball_state_node import BallStateNode
 from acts_control.ball.nodes.ball_trajectory_node import BallTrajectoryNode
 from acts_control.ball.nodes.names import CLOCK_REASON, REFERENCE_TOPIC, STATE_TOPIC, STATUS_TOPIC, TILT_TOPIC
+from acts_control.ball.nodes.other_frames import OtherFrames
 from acts_control.robots import make_robot, with_robots
 from acts_control.robots.base import Robot
 from acts_core.errors import SettingsError
@@ -100,6 +101,8 @@ class BallControlNode(Node):
         frame_id = skin_frame(self, settings.frame_id)
         self._status = BalanceStatus()
         self._status.header.frame_id = frame_id
+        self._other_states = OtherFrames("estimate", "estimates", frame_id)
+        self._other_references = OtherFrames("reference", "references", frame_id)
         self._tilt = Vector3Stamped()
         self._tilt.header.frame_id = frame_id
         self._status_publisher = self.create_publisher(
@@ -173,12 +176,16 @@ class BallControlNode(Node):
         return ""
 
     def _on_state(self, message: BallState) -> None:
+        if self._other_states.has(message.header.frame_id):
+            return
         position, velocity = message.position, message.velocity
         self._loop.ball = BallReport(
             ns_of(message.header.stamp), message.valid, Ball(position.x, position.y, velocity.x, velocity.y)
         )
 
     def _on_reference(self, message: BallReference) -> None:
+        if self._other_references.has(message.header.frame_id):
+            return
         position, velocity, acceleration = message.position, message.velocity, message.acceleration
         reference = Reference(position.x, position.y, velocity.x, velocity.y, acceleration.x, acceleration.y)
         self._loop.reference = ReferenceReport(ns_of(message.header.stamp), reference)
@@ -249,12 +256,17 @@ class BallControlNode(Node):
             "error_y_mm": 1e3 * status.error_m[1],
             "steps": status.steps,
             "late_steps": status.late_steps,
+            "in_another_frame": self._other_states.count + self._other_references.count,
         }
         level = _LEVELS.get(status.phase, OK)
         is_old = status.touch_age_s > self._settings.touch_stale_after_s
         if status.phase in _FEELING and (is_old or status.reference_problem):
             level = WARN
-        return level, f"{status.phase.name.lower()}: {status.reason}", values
+        words = [f"{status.phase.name.lower()}: {status.reason}"]
+        left_out = [*filter(None, (self._other_states.newly(), self._other_references.newly()))]
+        if left_out:
+            level = max(level, WARN)
+        return level, "; ".join([*words, *left_out]), values
 
 
 SETTINGS: dict[str, type] = {"ball_control": BallControlSettings}

@@ -18,6 +18,7 @@ from geometry_msgs.msg import Vector3Stamped
 
 from acts_control.ball import Ball, BallEstimator, BallReport, ContactMeasurement, EstimatorConfig
 from acts_control.ball.nodes.names import CLOCK_REASON, CONTACT_TOPIC, STATE_TOPIC, STATISTICS_TOPIC, TILT_TOPIC
+from acts_control.ball.nodes.other_frames import OtherFrames
 from acts_core.errors import PacketError
 from acts_core.runtime import StreamCounter
 from acts_core.settings import Changeable, setting
@@ -40,9 +41,6 @@ _STATISTICS_PERIOD_S = 1.0
 _CONTACTS = 128
 # While the control loop does not ask, since it is connecting or stopped, the node itself takes contacts so often [s].
 _UNDRIVEN_S = 0.1
-
-# A name that somebody else has sent is shown no further.
-_LONGEST_NAME = 64
 
 
 @dataclass(frozen=True)
@@ -92,9 +90,9 @@ class BallStateNode(PollingNode):
         self._period_ns = round(1e9 / settings.publish_rate_hz)
         self._due_ns = 0
         self._frame_id = skin_frame(self, settings.frame_id)
-        self._foreign = 0
-        self._foreign_frame = ""
-        self._left_out: tuple[int, ...] = (0, 0, 0)  # of each kind, as told last
+        self._other_contacts = OtherFrames("contact", "contacts", self._frame_id)
+        self._other_tilts = OtherFrames("tilt", "tilts", self._frame_id)
+        self._left_out: tuple[int, ...] = (0, 0)  # of each kind, as told last
         self._message = BallState()
         self._message.header.frame_id = self._frame_id
         self._clock = self.get_clock()
@@ -149,7 +147,8 @@ class BallStateNode(PollingNode):
             self.update()
 
     def _on_tilt(self, message: Vector3Stamped) -> None:
-        self.set_tilt(ns_of(message.header.stamp), (message.vector.x, message.vector.y))
+        if not self._other_tilts.has(message.header.frame_id):
+            self.set_tilt(ns_of(message.header.stamp), (message.vector.x, message.vector.y))
 
     def _take(self, data: bytes, received_ns: int, is_heard: bool) -> None:
         # A thousand times a second: nothing here that is not needed.
@@ -161,9 +160,7 @@ class BallStateNode(PollingNode):
             )
             return
         if contact.frame_id != self._frame_id:
-            # Its place is in other coordinates: a plate tilted by it might throw the ball off.
-            self._foreign_frame = contact.frame_id[:_LONGEST_NAME]
-            self._foreign += 1
+            self._other_contacts.note(contact.frame_id)
             return
         self._counter.step(contact.sequence, (received_ns - contact.stamp_ns) * 1e-9)
         self._estimator.step(
@@ -214,7 +211,7 @@ class BallStateNode(PollingNode):
             "outliers": state.outliers,
             "not_finite": state.not_finite,
             "implausible": state.implausible,
-            "in_another_frame": self._foreign,
+            "in_another_frame": self._other_contacts.count + self._other_tilts.count,
             "out_of_order": state.out_of_order,
             "restarts": state.restarts,
             "valid": state.valid,
@@ -226,17 +223,16 @@ class BallStateNode(PollingNode):
         return OK, "ball" if state.valid else "no ball", values
 
     def _newly_left_out(self) -> list[str]:
-        """Of what kind contacts were left out since the last report, in words, and how many so far."""
+        """Of what kind messages were left out since the last report, in words, and how many so far."""
         state = self._estimator.state
-        named, beyond = f"in the frame {self._foreign_frame!r}", "at places or of forces beyond reason and"
-        but = f": that of the skin is {self._frame_id!r} (parameter frame_id)"
+        beyond = "at places or of forces beyond reason and"
         kinds = (
-            (self._foreign, f"contact {named} was left out{but}", f"contacts {named} were left out{but}"),
             (state.not_finite, "contact was not finite and was left out", "contacts were not finite and were left out"),
             (state.implausible, f"contact was {beyond} was left out", f"contacts were {beyond} were left out"),
         )
         before, self._left_out = self._left_out, tuple(count for count, _, _ in kinds)
-        return [counted(*kind) for kind, told in zip(kinds, before, strict=True) if kind[0] > told]
+        told = [counted(*kind) for kind, told in zip(kinds, before, strict=True) if kind[0] > told]
+        return [*filter(None, (self._other_contacts.newly(), self._other_tilts.newly())), *told]
 
 
 SETTINGS: dict[str, type] = {"ball_state": BallStateSettings}
