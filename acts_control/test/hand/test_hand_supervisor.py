@@ -224,6 +224,30 @@ def test_a_palm_that_feels_more_than_is_allowed_opens_all_fingers(besides: list[
         assert all(hand.angle(joint) < before[NAMES.index(joint)] for joint in finger.closes)
 
 
+@pytest.mark.parametrize("share", ["0.01", "40"])
+def test_how_fast_a_finger_gives_way_does_not_depend_on_the_unit_of_the_shares_in_closing_it(
+    tmp_path: Path, share: str
+) -> None:
+    """The joint that takes most part has all steps that are asked for, as where its share is 1."""
+
+    def opened(share: str) -> float:
+        path = tmp_path / f"gripper_{share}.yaml"
+        path.write_text(GRIPPER.replace("{left: 1.0}", f"{{left: {share}}}"))
+        gripper = hand_description(str(path))
+        supervisor = HandSupervisor(HandKinematics(gripper), {}, SupervisorConfig())
+        supervisor.restart(recovered=False)
+        presses = RegionContact("left", "left_jaw", 4, 60.0)
+        q = np.array([0.8, 0.8])
+        for k in range(10):
+            supervisor.touch([presses], k * DT_S, k * DT_S)
+            reading = HandReading(tuple(q), (0.0,) * 2, (0.0,) * 2, (30,) * 2, ("",) * 2)
+            q = np.asarray(supervisor.step(reading, q.tolist(), k * DT_S, DT_S))
+        return 0.8 - float(q[0])
+
+    assert opened("1.0") > 0.1
+    assert opened(share) == pytest.approx(opened("1.0"))
+
+
 class Broken(Reflex):
     """A reflex whose sums have gone wrong, and which claims the hand."""
 

@@ -152,7 +152,7 @@ class Grasp:
         for finger in sensed.hand.fingers:
             closing = sensed.closing(finger)
             if finger not in gripping:
-                steps += self._config.close_speed_rad_s / sensed.step_rad_s * closing / closing.max()
+                steps += self._config.close_speed_rad_s / sensed.step_rad_s * closing
                 is_closing |= bool(closes[closing > 0.0].any())
         return steps, is_closing
 

@@ -114,7 +114,7 @@ class Finger:
     ----------
     name : str
     closes : mapping of str to float
-        The joints that close it, and how much each takes part.
+        The joints that close it, and how much each takes part, compared with the others.
     tip_link : str
     tip_m : tuple of float
         In the frame of `tip_link` [m].

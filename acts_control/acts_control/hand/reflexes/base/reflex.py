@@ -110,7 +110,7 @@ class Sensed:
         return found
 
     def closing(self, finger: str) -> Array:
-        """How much each joint takes part when a finger closes, shape (joints,)."""
+        """How much each joint takes part when a finger closes, shape (joints,); 1 for the one that takes most part."""
         return _closing(self.hand, finger)
 
 
@@ -181,5 +181,6 @@ def _closing(hand: HandDescription, finger: str) -> Array:
     key = (id(hand), finger)
     if key not in _CLOSING:
         shares = hand.fingers[finger].closes
-        _CLOSING[key] = hand, np.array([shares.get(name, 0.0) for name in hand.names])
+        # Whatever unit a description has for them, a finger that gives way opens as fast as is asked for.
+        _CLOSING[key] = hand, np.array([shares.get(name, 0.0) for name in hand.names]) / max(shares.values())
     return _CLOSING[key][1]
