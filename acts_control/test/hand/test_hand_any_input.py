@@ -372,10 +372,11 @@ def test_with_any_settings_the_goals_keep_their_limits(values: dict[str, Any], t
     try:
         given_settings = SETTINGS(**values)
         reflexes = make_reflexes(" ".join(REFLEXES), given_settings)
+        supervisor = HandSupervisor(LEAP, reflexes, given_settings)
     except SettingsError:
         reject()
     hand = RigidHand()
-    hand.supervisor = HandSupervisor(LEAP, reflexes, given_settings)
+    hand.supervisor = supervisor
     hand.supervisor.restart(recovered=False)
     hand.step(GRIPPED)
     hand.supervisor.grasp()

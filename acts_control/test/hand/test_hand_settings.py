@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from acts_control.hand.control import HandLoopConfig, SupervisorConfig
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.control import HandLoopConfig, HandSupervisor, SupervisorConfig
+from acts_control.hand.description import LEAP_RIGHT, HandKinematics
 from acts_control.hand.nodes.cmd_leap import CmdLeapBus
 from acts_control.hand.nodes.hand_node import HandSettings
 from acts_control.hand.nodes.reflexes_node import HandReflexesSettings
@@ -114,6 +114,37 @@ def test_another_hand_is_not_held_with_a_force_at_which_fingers_give_way() -> No
     with pytest.raises(SettingsError, match=r"hand_to_hand_deadband_n = 0\.5 it has to be less than 5\.4"):
         HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=9.0, hand_to_hand_deadband_n=0.5)
     assert HandToHandConfig(hand_to_hand_force_n=5.0, hand_to_hand_max_force_n=9.0).hand_to_hand_force_n == 5.0
+
+
+@pytest.mark.parametrize(
+    ("names", "given", "told"),
+    [
+        (
+            "sharp slip sphere",
+            {"max_force_n": 1.5},
+            r"sphere_roll_force_n = 1\.5: allowed is less than max_force_n = 1\.5",
+        ),
+        (
+            "sphere",
+            {"sphere_force_n": 3.0, "max_force_n": 2.0},
+            r"sphere_force_n = 3: allowed is less than max_force_n = 2",
+        ),
+        ("trap", {"max_force_n": 2.0}, r"trap_force_n = 2: allowed is less than max_force_n = 2"),
+        ("hand_to_hand", {"max_force_n": 0.7}, r"hand_to_hand_force_n = 0\.8: allowed is less than max_force_n = 0\.7"),
+        (
+            "hand_to_hand",
+            {"grip_force_n": 6.0},
+            r"grip_force_n = 6: with the reflex hand_to_hand allowed is less than 6, ",
+        ),
+    ],
+)
+def test_a_force_at_which_fingers_give_way_is_refused_of_reflexes_that_act(
+    names: str, given: dict[str, float], told: str
+) -> None:
+    settings: Any = HandReflexesSettings(**given)
+    with pytest.raises(SettingsError, match=told):
+        HandSupervisor(HandKinematics(LEAP_RIGHT), make_reflexes(names, settings), settings)
+    HandSupervisor(HandKinematics(LEAP_RIGHT), make_reflexes("sharp slip", settings), settings)
 
 
 def test_a_reflex_that_does_not_exist_is_refused_with_the_nearest_name() -> None:

@@ -104,12 +104,19 @@ class HandSupervisor:
     stood_still : callable
         Takes when a grasp was asked for, by `loop_rate.steady_s` [s]; in words that this program has stood still since,
         or nothing.
+
+    Raises
+    ------
+    SettingsError
+        When the hand has no such posture to grasp from, or settings of reflexes do not go together with its own.
     """
 
     def __init__(self, kinematics: HandKinematics, reflexes: Mapping[str, Reflex], config: SupervisorConfig) -> None:
         if config.grasp_posture not in kinematics.hand.postures:
             known = ", ".join(kinematics.hand.postures)
             raise SettingsError(f"grasp_posture = {config.grasp_posture!r}: the hand has {known}")
+        for reflex in reflexes.values():
+            reflex.check(config.grip_force_n, config.max_force_n)
         self._kinematics = kinematics
         self._hand = kinematics.hand
         self._reflexes = dict(sorted(reflexes.items(), key=lambda item: -item[1].priority))

@@ -52,9 +52,14 @@ class HandToHandConfig:
         0.2, "differences of less than this have no effect [N]", minimum=0.0, maximum=5.0
     )
 
+    @property
+    def yields_n(self) -> float:
+        """Force on a region above which its finger gives way [N]."""
+        return self.hand_to_hand_yield_share * self.hand_to_hand_max_force_n
+
     def __post_init__(self) -> None:
         validate(self)
-        yields_n = self.hand_to_hand_yield_share * self.hand_to_hand_max_force_n
+        yields_n = self.yields_n
         if self.hand_to_hand_force_n + self.hand_to_hand_deadband_n >= yields_n:
             raise SettingsError(
                 f"hand_to_hand_force_n = {self.hand_to_hand_force_n:g}: with hand_to_hand_deadband_n = "
@@ -91,8 +96,20 @@ class HandToHand(Reflex):
     Config = HandToHandConfig
     priority = 65  # above slip: it would close a finger that gives way
     states = frozenset({HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING})
+    pressing = ("hand_to_hand_force_n",)
 
     config: HandToHandConfig
+
+    def check(self, grip_force_n: float, max_force_n: float) -> None:
+        """See `Reflex.check`."""
+        super().check(grip_force_n, max_force_n)
+        yields_n = self.config.yields_n
+        if grip_force_n >= yields_n:
+            raise SettingsError(
+                f"grip_force_n = {grip_force_n:g}: with the reflex hand_to_hand allowed is less than {yields_n:g}, "
+                f"where fingers give way (hand_to_hand_yield_share times hand_to_hand_max_force_n), or they would "
+                f"never have gripped"
+            )
 
     def reset(self) -> None:
         """Forget what was."""

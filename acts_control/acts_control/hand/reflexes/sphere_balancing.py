@@ -128,6 +128,7 @@ class SphereBalancing(Reflex):
     Config = SphereBalancingConfig
     priority = 70  # above slip: what it moves on purpose does slip
     states = frozenset({HandState.CLOSING, HandState.HOLDING, HandState.AVOIDING})
+    pressing = ("sphere_force_n", "sphere_roll_force_n")
 
     config: SphereBalancingConfig
 

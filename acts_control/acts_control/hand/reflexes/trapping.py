@@ -54,6 +54,7 @@ class Trapping(Reflex):
     Config = TrappingConfig
     priority = 75  # above balancing and slip: they would close all fingers
     states = frozenset({HandState.HOLDING, HandState.AVOIDING})
+    pressing = ("trap_force_n",)
 
     config: TrappingConfig
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from acts_control.hand.description import HandDescription, HandKinematics, HandPose, Role
+from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
@@ -157,11 +158,34 @@ class Reflex(ABC):
     """The highest is asked first."""
     states: ClassVar[frozenset[HandState]]
     """In which it is asked."""
+    pressing: ClassVar[tuple[str, ...]] = ()
+    """Its settings that are forces to press with [N]."""
 
     def __init__(self, config: Any) -> None:
         self.config = config
         self.events = 0
         self.reset()
+
+    def check(self, grip_force_n: float, max_force_n: float) -> None:
+        """Refuse settings that do not go together with those of the hand.
+
+        Parameters
+        ----------
+        grip_force_n, max_force_n : float
+            What a finger that closes is to feel, and what it gives way at, whatever is asked for [N].
+
+        Raises
+        ------
+        SettingsError
+            With what is allowed.
+        """
+        for name in self.pressing:
+            force_n = getattr(self.config, name)
+            if force_n >= max_force_n:
+                raise SettingsError(
+                    f"{name} = {force_n:g}: allowed is less than max_force_n = {max_force_n:g}, at which a finger "
+                    f"gives way, or it would press and open in turn"
+                )
 
     @abstractmethod
     def reset(self) -> None:
