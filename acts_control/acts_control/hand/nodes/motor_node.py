@@ -151,7 +151,8 @@ class MotorNode(PollingNode):
         """Why the hand cannot move now, and, if it is meant `to_move`, what to do; empty where it can."""
         status = self.loop.status
         if status.phase is HandPhase.ENABLED:
-            return ""
+            goes_off = to_move and not self.loop.is_torque_wanted
+            return "the torque is about to go off, as was asked for before; call enable" if goes_off else ""
         state = "not connected" if status.phase is HandPhase.CONNECTING else status.phase.words
         advice = "; call enable" if to_move and status.phase is HandPhase.RELEASED else ""
         if self.loop.is_torque_wanted:

@@ -317,6 +317,28 @@ def test_a_grasp_is_not_done_when_its_program_has_stood_still_since() -> None:
         peers.close()
 
 
+def test_a_hand_whose_torque_is_about_to_go_off_is_not_said_to_begin_to_move() -> None:
+    peers = Peers(DOMAIN_ID, "user")
+    # Its loop is not launched: motors that are silent hold it up for seconds while it switches their torque off.
+    hand = peers.add(HandReflexesNode(context=peers.context))
+    try:
+        now_s = steady_s()
+        assert hand._supervisor.touch(all_regions(*GRIPPED), now_s, now_s)
+        hand._supervisor.watch(now_s)
+        hand.loop.status = replace(hand.loop.status, phase=HandPhase.ENABLED, reason="acting")
+        hand.loop.ask_release()
+        for ask in (hand._on_grasp, hand._on_release):
+            answer = ask(Trigger.Request(), Trigger.Response())
+            assert not answer.success
+            assert answer.message == "the torque is about to go off, as was asked for before; call enable"
+        # A stop counts at any time: the torque may stay on after all.
+        assert hand._on_stop(Trigger.Request(), Trigger.Response()).success
+        hand.loop._wish.on()
+        assert hand._on_grasp(Trigger.Request(), Trigger.Response()).success
+    finally:
+        peers.close()
+
+
 def answer_of(node: Node, until: Spin, name: str) -> Trigger.Response:
     client = node.create_client(Trigger, f"hand_reflexes/{name}")
     assert client.wait_for_service(DEADLINE_S)
