@@ -191,6 +191,7 @@ class HandReflexesNode(MotorNode):
         self._times, self._timed_s = self._touched.times, time.monotonic()
         self._told = SupervisorStatus()
         self._changes = LoggedChanges(self._told.state, self._told.reason)
+        self._unfelt_changes = LoggedChanges("unfelt", "")
         self._reported_refused = 0
         self.start_with(settings, self._touched, "disable", "regions")
         self._supervisor.stood_still = self.stalls.since
@@ -273,8 +274,9 @@ class HandReflexesNode(MotorNode):
             self.get_logger().warning(
                 f"left out: {status.refusal}", throttle_duration_sec=5.0, throttle_time_source_type=STEADY
             )
-        if status.unfelt and status.unfelt != self._told.unfelt:
-            self.get_logger().warning(_says_nothing(status.unfelt))
+        unfelt = _says_nothing(status.unfelt) if status.unfelt else ""
+        if self._unfelt_changes.is_due("unfelt", unfelt) and unfelt:
+            self.get_logger().warning(unfelt)
         self._told = status
         set_stamp(message.header.stamp, self.get_clock().now().nanoseconds)
         message.state = int(status.state)

@@ -339,6 +339,28 @@ def test_a_hand_whose_torque_is_about_to_go_off_is_not_said_to_begin_to_move() -
         peers.close()
 
 
+def test_a_region_that_touch_tells_of_now_and_then_is_logged_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    peers = Peers(DOMAIN_ID, "user")
+    monkeypatch.setattr(time, "monotonic", lambda: 100.0)
+    # Its loop is not launched, and nobody spins.
+    hand = peers.add(HandReflexesNode(context=peers.context))
+    try:
+
+        def logged(*unfelt: tuple[str, ...]) -> int:
+            for names in unfelt:
+                hand._supervisor.status = replace(hand._supervisor.status, unfelt=names)
+                hand._publish_status()
+            return capfd.readouterr().err.count("touch says nothing of palm")
+
+        assert logged(("palm",), ("palm",)) == 1
+        # As from two skins that take turns.
+        assert logged(*[(), ("palm",)] * 200) <= 5
+    finally:
+        peers.close()
+
+
 def answer_of(node: Node, until: Spin, name: str) -> Trigger.Response:
     client = node.create_client(Trigger, f"hand_reflexes/{name}")
     assert client.wait_for_service(DEADLINE_S)
