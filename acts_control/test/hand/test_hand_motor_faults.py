@@ -37,6 +37,20 @@ def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, ru
     assert torques(bus) == {1}
 
 
+def test_who_asks_for_torque_again_and_again_does_not_keep_a_motor_from_being_given_up(
+    bus: Bus, running: Running
+) -> None:
+    running.until_phase(HandPhase.ENABLED)
+    bus.command("overload 6")
+    running.until(lambda: running.loop.status.recovered == 1 and running.loop.status.phase is HandPhase.ENABLED)
+    # Nobody has looked after a hand that has torque: as a program does that asks until it is told that it is on.
+    assert running.loop.enable() == ""
+    bus.command("overload 6")
+    running.until(lambda: running.loop.status.phase is HandPhase.GIVEN_UP or running.loop.status.recovered == 2)
+    assert running.loop.status.phase is HandPhase.GIVEN_UP
+    assert torques(bus) == {0}
+
+
 def test_a_loop_that_was_held_up_until_the_motors_stopped_moves_them_again(bus: Bus) -> None:
     running = Running(bus, motor_watchdog_s=0.1)
     try:

@@ -102,7 +102,8 @@ class HandLoop:
     def ask_enable(self) -> PendingAnswer:
         """Like `enable`, for who does not wait here."""
         if self._wish.is_served:
-            self._faults.forget()
+            if not self._wish.is_on:
+                self._faults.forget()  # somebody has looked after the motors
             self._wish.on()
         phase = self.status.phase
         # An enabled hand may be about to switch its torque off, as was asked for before this.
