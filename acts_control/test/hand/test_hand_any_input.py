@@ -33,7 +33,7 @@ from acts_core.errors import SettingsError
 from acts_core.settings import default_of, describe
 from acts_core.skin import RegionContact
 from acts_ros.diagnostics import WARN
-from acts_ros.messages import RegionsFields, write_regions
+from acts_ros.messages import RegionsFields, read_regions, write_regions
 
 pytestmark = pytest.mark.slow
 
@@ -213,6 +213,19 @@ def test_whatever_bytes_come_good_touch_among_them_is_used(junk: list[list[bytes
     assert fed.hand.supervisor.status.refused == before + 1
     assert not fed.hand.supervisor.status.is_stale
     assert fed.hand.supervisor.status.touch_age_s < 0.002
+    check_that_it_holds_again(fed.hand)
+
+
+def test_good_touch_counts_whatever_old_touch_comes_after_it() -> None:
+    """As where a recording is played beside the skin: within a cycle its messages may be the last."""
+    fed = Fed(a_hand_of_all_reflexes(), Topic())
+    touched = fed.touched()
+    for _ in range(100):
+        good = fed.good()
+        old = write_regions(read_regions(good)._replace(stamp_ns=0))
+        fed.cycle(touched, good, old, old)
+        assert fed.hand.supervisor.status.touch_age_s < 0.002
+    assert fed.hand.supervisor.status.refused == 0
     check_that_it_holds_again(fed.hand)
 
 

@@ -185,7 +185,7 @@ class HandSupervisor:
         Returns
         -------
         bool
-            False where it cannot be, and counts as not come.
+            False where it cannot be, or newer touch has come before: it counts as not come.
         """
         return self._touch.take(regions, stamp_s, now_s)
 

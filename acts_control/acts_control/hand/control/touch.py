@@ -71,13 +71,14 @@ class HandTouch:
         objection = next(filter(None, map(self._objection, regions)), "")
         if objection:
             return self.refuse(objection)
-        if stamp_s > self._stamp_s:
-            felt = {one.name: one for one in regions}
-            # In the order of the description, from the root of each finger to its tip: a layout may have any other.
-            self.regions = {name: felt[name] for name in self._hand.regions if name in felt}
-            self.unfelt = tuple(name for name in self._hand.regions if name not in self.regions)
-            self._stamp_s, self._came_s = stamp_s, now_s
-            self.is_new = True
+        if stamp_s <= self._stamp_s:
+            return False  # newer touch has come: this may be of a recording
+        felt = {one.name: one for one in regions}
+        # In the order of the description, from the root of each finger to its tip: a layout may have any other.
+        self.regions = {name: felt[name] for name in self._hand.regions if name in felt}
+        self.unfelt = tuple(name for name in self._hand.regions if name not in self.regions)
+        self._stamp_s, self._came_s = stamp_s, now_s
+        self.is_new = True
         return True
 
     def refuse(self, why: str) -> bool:
