@@ -149,6 +149,7 @@ class HandToHand(Reflex):
         np.clip(steps, -config.hand_to_hand_max_steps, config.hand_to_hand_max_steps, out=steps)
         if not steps.any():
             return None
+        self.note_acting(sensed.time_s)
         return Wish(steps, why or f"force shared among {state.phalanges} phalanges", gives_way)
 
     def _wanted(self, force_n: float, in_contact: bool) -> float:

@@ -142,7 +142,10 @@ class SphereBalancing(Reflex):
         ball = None if palm is None else self._look(sensed, palm)
         if ball is None:
             return None
-        return self._close(sensed, ball) if sensed.state is HandState.CLOSING else self._hold(sensed, ball)
+        wish = self._close(sensed, ball) if sensed.state is HandState.CLOSING else self._hold(sensed, ball)
+        if wish is not None:
+            self.note_acting(sensed.time_s)
+        return wish
 
     def _look(self, sensed: Sensed, palm: Region) -> Ball | None:
         """The sphere that touches the skin; None where nothing does."""

@@ -72,6 +72,7 @@ class Trapping(Reflex):
             self.radius_m = aiming.radius_on_palm(*felt, points) or self.radius_m
         if not fingers or not 0.0 < self.radius_m < aiming.SMALL_M:
             return None
+        self.note_acting(sensed.time_s)
         rates = sensed.steps()
         for one in fingers:
             speed_m_s = config.trap_compliance_m_s_n * (config.trap_force_n - one.force_n)

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 from hand_rig import DT_S, GRIPPED, NAMES, RigidHand, joints_of, region, sensed
@@ -13,9 +15,10 @@ from hypothesis import strategies as st
 
 from acts_control.hand.control.step_rule import StepRule, StepRuleConfig
 from acts_control.hand.description import LEAP_RIGHT
-from acts_control.hand.reflexes import REFLEXES, HandState, HandToHandConfig, Wish
+from acts_control.hand.reflexes import REFLEXES, HandState, HandToHandConfig, Reflex, Wish
 from acts_control.hand.reflexes.hand_to_hand import HandToHand
 from acts_control.hand.reflexes.slip_prevention import SlipPrevention, SlipPreventionConfig
+from acts_control.hand.reflexes.sphere_balancing import SphereBalancing, SphereBalancingConfig
 from acts_control.hand.reflexes.spheres.aiming import approaches, radius_on_palm, reach
 from acts_control.hand.reflexes.spheres.ball import fitted_sphere
 from acts_control.hand.reflexes.trapping import Trapping, TrappingConfig
@@ -210,6 +213,28 @@ def test_what_is_larger_or_was_not_felt_by_the_palm_is_not_trapped() -> None:
     at = sensed().pose.point(tip.link, tip.centre_m)
     palm = region("palm", 1.0, centre_m=(at[0], at[1], at[2] + 0.060), normal=(0.0, 0.0, -1.0))
     assert reflex.step(sensed(palm, region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal))) is None
+
+
+def at_times(reflex: Reflex, times_s: Sequence[float], *pressed: RegionContact) -> int:
+    """How often it counts as set off, after it was asked at these times."""
+    for time_s in times_s:
+        assert reflex.step(sensed(*pressed, time_s=time_s)) is not None
+    return reflex.events
+
+
+def test_what_acts_for_as_long_as_something_lasts_has_been_set_off_once_until_it_has_paused() -> None:
+    tip = LEAP_RIGHT.regions["middle_distal"]
+    at = sensed().pose.point(tip.link, tip.centre_m)
+    held = region("middle_distal", 0.3, centre_m=tip.centre_m, normal=tip.normal)
+    palm = region("palm", 0.2, centre_m=(at[0], at[1], at[2] + 0.020), normal=(0.0, 0.0, -1.0))
+    for reflex in (
+        Trapping(TrappingConfig()),
+        HandToHand(HandToHandConfig()),
+        SphereBalancing(SphereBalancingConfig()),
+    ):
+        assert reflex.events == 0
+        assert at_times(reflex, (7.0, 7.004, 7.4), palm, held) == 1
+        assert at_times(reflex, (8.0, 8.004), palm, held) == 2
 
 
 # --- hand to hand

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,6 +21,9 @@ from acts_core.errors import SettingsError
 from acts_core.skin import RegionContact
 
 Array = NDArray[np.float64]
+
+# A reflex that did not act for no longer has not been set off again: at the edge of what sets it off it comes and goes.
+_PAUSE_S = 0.5
 
 
 class HandState(IntEnum):
@@ -149,7 +153,7 @@ class Reflex(ABC):
     Attributes
     ----------
     events : int
-        How often it has been set off, for those that count that.
+        How often it has been set off.
     """
 
     Config: ClassVar[type]
@@ -164,7 +168,19 @@ class Reflex(ABC):
     def __init__(self, config: Any) -> None:
         self.config = config
         self.events = 0
+        self._acted_s = -math.inf  # when it acted last, for those that act for as long as something lasts
         self.reset()
+
+    def note_acting(self, time_s: float) -> None:
+        """Count that it has been set off, unless it did nothing but pause: to be called in each step in which it acts.
+
+        Parameters
+        ----------
+        time_s : float
+            Of the step [s].
+        """
+        self.events += time_s - self._acted_s > _PAUSE_S
+        self._acted_s = time_s
 
     def check(self, grip_force_n: float, max_force_n: float) -> None:
         """Refuse settings that do not go together with those of the hand.
