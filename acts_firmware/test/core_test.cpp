@@ -37,7 +37,14 @@ void test_pin_table() {
 
 void test_levels_while_measuring() {
   IndexBoard board(32, 32);
-  acts::Scanner scanner(board, acts::published_wiring());
+  const acts::Wiring wiring = acts::published_wiring();
+  for (std::size_t line = 0; line < 32; ++line) {
+    board.write_pin(wiring.row_pins[line], true);
+  }
+  board.write_pin(wiring.address_pins[4], true);
+  CHECK(board.high_pins(0, 255) == 33);
+  acts::Scanner scanner(board, wiring);
+  CHECK(board.high_pins(0, 255) == 0);
   scanner.measure(30, 0x15);
   CHECK(board.level(1));  // row 30 on line 1
   CHECK(board.high_pins(0, 32) == 1);
@@ -46,8 +53,6 @@ void test_levels_while_measuring() {
   CHECK(board.level(30));
   CHECK(board.high_pins(0, 32) == 1);
   CHECK(!board.level(33) && board.level(34) && !board.level(35) && board.level(36) && !board.level(37));
-  scanner.release();
-  CHECK(board.high_pins(0, 255) == 0);
 }
 
 void test_every_taxel_is_wired(int rows, int cols) {

@@ -6,18 +6,12 @@
 namespace acts {
 
 Scanner::Scanner(Board& board, const Wiring& wiring) : board_(board), wiring_(wiring) {
-  release();
-}
-
-void Scanner::release() {
   for (int line = 0; line < wiring_.lines; ++line) {
     board_.write_pin(wiring_.row_pins[static_cast<std::size_t>(line)], false);
   }
   for (int bit = 0; bit < wiring_.address_bits; ++bit) {
     board_.write_pin(wiring_.address_pins[static_cast<std::size_t>(bit)], false);
   }
-  row_ = -1;
-  col_ = 0;
 }
 
 std::uint16_t Scanner::measure(int row, int col) {

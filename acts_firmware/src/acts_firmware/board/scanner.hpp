@@ -26,12 +26,10 @@ class TaxelReader {
 // written again.
 class Scanner final : public TaxelReader {
  public:
+  // All row lines low, multiplexer on column 0.
   Scanner(Board& board, const Wiring& wiring);
 
   std::uint16_t measure(int row, int col) override;
-
-  // All row lines low, multiplexer on column 0.
-  void release();
 
  private:
   Board& board_;
