@@ -37,9 +37,7 @@ def test_an_overload_is_recovered_once_and_given_up_the_second_time(bus: Bus, ru
     assert torques(bus) == {1}
 
 
-def test_who_asks_for_torque_again_and_again_does_not_keep_a_motor_from_being_given_up(
-    bus: Bus, running: Running
-) -> None:
+def test_asking_for_torque_again_and_again_keeps_no_motor_from_being_given_up(bus: Bus, running: Running) -> None:
     running.until_phase(HandPhase.ENABLED)
     bus.command("overload 6")
     running.until(lambda: running.loop.status.recovered == 1 and running.loop.status.phase is HandPhase.ENABLED)
