@@ -13,10 +13,23 @@ from hand_loop_rig import MadeBus
 from waiting import wait_for
 
 from acts_control.hand.control import HandLoop, HandLoopConfig, HandPhase
-from acts_control.hand.description import LEAP_RIGHT
+from acts_control.hand.control.beyond_limits import beyond_reach, to_be_brought_back
+from acts_control.hand.description import LEAP_RIGHT, HandDescription
+from acts_control.hand.motors import HandReading
 
 # A hand whose joints, on motors with their zero in the middle, are between -2 and 2 rad.
 HAND = replace(LEAP_RIGHT, joints=tuple(replace(one, lower_rad=-2.0, upper_rad=2.0) for one in LEAP_RIGHT.joints))
+
+
+def limited_to(lower_rad: float, upper_rad: float) -> HandDescription:
+    """A hand of two joints."""
+    return replace(
+        HAND, joints=tuple(replace(one, lower_rad=lower_rad, upper_rad=upper_rad) for one in HAND.joints[:2])
+    )
+
+
+def reading(*q_rad: float) -> HandReading:
+    return HandReading(q_rad, (0.0,) * len(q_rad), (0.0,) * len(q_rad), (30,) * len(q_rad), ("",) * len(q_rad))
 
 
 def loop_of(bus: MadeBus, upper_rad: float = 2.0) -> HandLoop:
@@ -70,3 +83,42 @@ def test_only_joints_that_are_beyond_a_limit_are_told_to_be_brought_back() -> No
         ]
     finally:
         loop.close()
+
+
+@pytest.mark.parametrize(
+    ("limits_rad", "q_rad", "why"),
+    [
+        # Of a joint that turns by more than a turn only how far it is beyond can be told.
+        ((-2.0, 5.0), 8.2, "more than half a turn beyond its limits of -2 to 5"),
+        ((-2.0, 5.0), -5.2, "more than half a turn beyond its limits of -2 to 5"),
+        ((-2.0, 5.0), 8.1, ""),
+        ((-2.0, 5.0), -5.1, ""),
+        # From 3.15 rad on it is nearer to the lower limit by a turn.
+        ((-2.0, 2.0), 3.2, "beyond its limits of -2 to 2, and nearer to them by a turn"),
+        ((-2.0, 2.0), -3.2, "beyond its limits of -2 to 2, and nearer to them by a turn"),
+        ((-2.0, 2.0), 3.1, ""),
+        ((-2.0, 2.0), -3.1, ""),
+        # A joint at its limit may read as a little beyond, though this is its other limit by a turn.
+        ((-3.13, 3.13), 3.145, ""),
+    ],
+)
+def test_of_all_joints_the_one_that_cannot_be_where_it_is_said_to_be_is_told(
+    limits_rad: tuple[float, float], q_rad: float, why: str
+) -> None:
+    hand = limited_to(*limits_rad)
+    for joint, angles_rad in zip(hand.joints, [(q_rad, 0.0), (0.0, q_rad)], strict=True):
+        said = beyond_reach(hand, reading(*angles_rad))
+        if why:
+            assert said.startswith(f"{joint.name} is said to be at {q_rad:.2f} rad, {why}")
+        else:
+            assert said == ""
+
+
+def test_joints_are_told_to_be_brought_back_from_beyond_either_limit() -> None:
+    hand = limited_to(-2.0, 1.0)
+    first, second = (joint.name for joint in hand.joints)
+    assert to_be_brought_back(hand, reading(1.03, -2.03)) == [
+        f"{first} is at 1.03 rad, beyond its limits of -2 to 1: it is brought back at 0.5 rad/s",
+        f"{second} is at -2.03 rad, beyond its limits of -2 to 1: it is brought back at 0.5 rad/s",
+    ]
+    assert to_be_brought_back(hand, reading(1.01, -2.01)) == []
