@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -162,3 +163,76 @@ def test_an_image_that_is_no_skin_leaves_the_description_as_it_was() -> None:
     display.show_frame("/plate", frame(rows=1, cols=100_000), [])
     (described, _), _ = news(display.reader())
     assert (described["rows"], described["cols"], described["told"]) == (32, 32, False)
+
+
+def test_of_a_skin_that_nobody_describes_the_size_is_that_of_its_newest_image() -> None:
+    display = Display()
+    reader = display.reader()
+    for rows, cols in ((8, 6), (64, 3)):
+        display.show_frame("/plate", frame(rows=rows, cols=cols), [])
+        (described, _), _ = news(reader)
+        assert (described["rows"], described["cols"], described["told"]) == (rows, cols, False)
+    # Then somebody says that it is so.
+    display.show_shape("/plate", SkinShape(rows=64, cols=3))
+    [(described, _)] = news(reader)
+    assert (described["rows"], described["cols"], described["told"]) == (64, 3, True)
+    # From now on that counts.
+    display.show_frame("/plate", frame(rows=8, cols=6), [])
+    assert kinds(reader) == ["frame"]
+
+
+def test_a_skin_that_is_begun_anew_is_described_as_its_files_are_now(tmp_path: Path) -> None:
+    layout = tmp_path / "sole.yaml"
+    patch = "{at: [%d, 0], wires: {down: rows %s, across: cols}}"
+
+    def write(**patches: tuple[int, str]) -> None:
+        lines = [f"  {name}: {patch % one}" for name, one in patches.items()]
+        layout.write_text("\n".join(["matrix: [8, 8]", "patches:", *lines, ""]))
+
+    display = Display()
+    reader = display.reader()
+    shape = SkinShape(rows=8, cols=8, layout=str(layout))
+    write(whole=(0, "0 to 7"))
+    display.show_shape("/sole", shape)
+    [(described, _)] = news(reader)
+    assert [one["name"] for one in described["patches"]] == ["whole"]
+    write(heel=(0, "0 to 3"), toes=(4, "4 to 7"))
+    display.show_shape("/sole", shape)
+    assert kinds(reader) == []
+    display.show_shape("/sole", shape, is_begun_anew=True)
+    [(described, _)] = news(reader)
+    assert [one["name"] for one in described["patches"]] == ["heel", "toes"]
+
+
+@pytest.mark.usefixtures("clock")
+def test_readers_share_a_message_until_there_is_a_newer_one() -> None:
+    display = Display()
+    display.show_frame("/plate", frame(1), [])
+    [_, first], [_, same] = display.reader().news(), display.reader().news()
+    assert first is same
+    display.show_frame("/plate", frame(2), [])
+    (_, arrays) = news(display.reader())[-1]
+    assert (arrays["image"] == 2).all()
+
+
+def test_what_is_forgotten_is_told_by_another_life_of_the_history() -> None:
+    display = Display()
+    lives = []
+    for _ in range(2):
+        for _ in range(2):
+            display.show_frame("/plate", frame(), [sample(1000.0)])
+            lives.append(news(display.reader())[-1][0]["life"])
+        display.forget("/plate")
+    assert lives[0] == lives[1] != lives[2] == lives[3]
+
+
+def test_a_skin_that_comes_while_somebody_reads_is_news_of_the_next_time() -> None:
+    display = Display()
+    display.show_frame("/left", frame(), [])
+    reader = display.reader()
+    reading = reader.news()
+    next(reading)
+    display.show_frame("/right", frame(), [])
+    names = [decode(message)[0]["skin"] for message in reading]
+    assert names == ["/left"]
+    assert [header["skin"] for header, _ in news(reader)] == ["/right", "/right"]
