@@ -5,8 +5,11 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -16,7 +19,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from std_msgs.msg import Int32
+from waiting import wait_for
 
+from acts_ros import publishers
 from acts_ros.diagnostics import ERROR, OK, DiagnosticsReporter
 from acts_ros.publishers import SAME_NAME_S, OnlyPublishers, TolerantPublisher, published
 from acts_ros.qos import LATCHED, STREAM
@@ -88,6 +93,47 @@ def test_a_publisher_that_goes_while_it_is_looked_for_is_no_problem(
     assert only.problem() == ""
 
 
+class MadeGraph:
+    """Says who publishes the topics of the namespace of a robot."""
+
+    def __init__(self) -> None:
+        self.names: list[tuple[str, str]] = []
+        """Namespace and name of each publisher."""
+
+    def resolve_topic_name(self, topic: str) -> str:
+        return f"/{topic}"
+
+    def count_publishers(self, _topic: str) -> int:
+        return len(self.names)
+
+    def get_publishers_info_by_topic(self, _topic: str) -> list[Any]:
+        return [SimpleNamespace(node_namespace=namespace, node_name=name) for namespace, name in self.names]
+
+
+def test_of_publishers_of_one_name_the_time_begins_anew_when_one_of_them_has_gone() -> None:
+    now_s = 100.0
+    graph = MadeGraph()
+    only = OnlyPublishers(graph, ["touch"], lambda: now_s)  # type: ignore[arg-type]
+    skin = ("/plate", "skin")
+    graph.names = [skin, skin]
+    assert only.problem() == ""
+    graph.names = [skin]
+    assert only.problem() == ""
+    # Killed once more, an hour later.
+    now_s += 3600.0
+    graph.names = [skin, skin]
+    assert only.problem() == ""
+    now_s += SAME_NAME_S
+    assert only.problem() != ""
+
+
+def test_nodes_without_a_namespace_and_programs_without_a_node_are_named() -> None:
+    graph = MadeGraph()
+    graph.names = [("/", "skin"), ("_NODE_NAMESPACE_UNKNOWN_", "_NODE_NAME_UNKNOWN_")]
+    only = OnlyPublishers(graph, ["touch"])  # type: ignore[arg-type]
+    assert only.problem() == "/touch has 2 publishers (/skin, a program without a node): end all but one"
+
+
 @pytest.mark.parametrize(
     ("own", "message"), [(OK, "/plate/touch has 2 publishers"), (ERROR, "no port; /plate/touch has 2 publishers")]
 )
@@ -111,6 +157,7 @@ class Middleware:
         self.refused = refused
         self.words = words
         self.asked = 0
+        self.taken: list[Int32] = []
         self._publish = Publisher.publish
 
     def publish(self, publisher: Publisher[Int32], msg: Int32) -> None:
@@ -118,6 +165,7 @@ class Middleware:
         if self.asked <= self.refused:
             raise rclpy_implementation.RCLError(f"{self.words}, at /project/src/rmw_publish.cpp:68")
         self._publish(publisher, msg)
+        self.taken.append(msg)
 
 
 @pytest.mark.parametrize(("profile", "refused", "asked"), [(STREAM, 1, 1), (LATCHED, 2, 3), (LATCHED, 9, 3)])
@@ -172,6 +220,57 @@ def test_what_is_kept_for_late_joiners_comes_when_the_middleware_takes_it_again(
     publisher.publish(Int32(data=3))
     graph.until(lambda: len(late) == 2)
     assert [one.data for one in late] == [2, 3]
+
+
+def owing() -> int:
+    """How many threads are about to publish again."""
+    return sum(thread.name == "acts_owed" for thread in threading.enumerate())
+
+
+@pytest.fixture
+def soon_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(publishers, "_PERIOD_S", 0.01)
+
+
+@pytest.mark.filterwarnings("error::pytest.PytestUnhandledThreadExceptionWarning")
+@pytest.mark.usefixtures("soon_again")
+def test_an_older_message_does_not_come_after_a_newer_one(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    publisher = graph.watcher.create_publisher(Int32, "board", **published(LATCHED))
+    middleware = Middleware(0, "Failed to publish: cannot publish data")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    for number in (0, 10):
+        middleware.refused = middleware.asked + 1000
+        publisher.publish(Int32(data=number + 1))
+        publisher.publish(Int32(data=number + 2))
+        assert owing() == 1
+        middleware.refused = 0
+        publisher.publish(Int32(data=number + 3))
+        wait_for(lambda: not owing(), "that nothing is owed")
+        # One that nothing newer follows comes, too.
+        middleware.refused = middleware.asked + 4
+        publisher.publish(Int32(data=number + 4))
+        wait_for(lambda: not owing(), "that it is taken")
+    assert [one.data for one in middleware.taken] == [3, 4, 13, 14]
+
+
+@pytest.mark.filterwarnings("error::pytest.PytestUnhandledThreadExceptionWarning")
+@pytest.mark.usefixtures("soon_again")
+@pytest.mark.parametrize("is_destroyed", [True, False])
+def test_what_is_owed_where_a_publisher_or_its_context_has_ended_is_given_up_without_a_word(
+    is_destroyed: bool, graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publisher = graph.watcher.create_publisher(Int32, "board", **published(LATCHED))
+    middleware = Middleware(1000, "Failed to publish: cannot publish data")
+    monkeypatch.setattr(Publisher, "publish", lambda one, msg: middleware.publish(one, msg))
+    publisher.publish(Int32(data=1))
+    assert owing() == 1
+    if is_destroyed:
+        graph.watcher.destroy_publisher(publisher)
+        middleware.refused = 0
+    else:
+        middleware.words = "the context is invalid"
+    wait_for(lambda: not owing(), "the end of the attempts")
+    assert middleware.taken == []
 
 
 def test_another_error_of_a_publisher_is_raised(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
