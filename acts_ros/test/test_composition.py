@@ -3,14 +3,18 @@
 
 """Parameters of the nodes of one process, from its command line."""
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
+from rclpy.parameter import Parameter
 
 from acts_core.errors import SettingsError
 from acts_core.settings import setting
-from acts_ros.composition import parameters_from
+from acts_ros import composition
+from acts_ros.composition import parameters_from, run_nodes
 
 
 @dataclass(frozen=True)
@@ -82,6 +86,7 @@ def test_a_params_file_that_ros_cannot_read_is_refused(tmp_path: Path, text: str
     with pytest.raises(SettingsError, match=f"params file: '--params-file {path}'") as caught:
         given("--ros-args", "--params-file", str(path))
     assert ".c:" not in str(caught.value)
+    assert not str(caught.value).endswith("; ")
 
 
 @pytest.mark.parametrize(
@@ -112,6 +117,12 @@ def test_how_an_empty_text_is_given_to_ros_is_told() -> None:
         given("--ros-args", "-p", "right:word:=two", "-p", "word:=")
 
 
+def test_only_of_an_empty_text_it_is_told_how_to_give_one() -> None:
+    with pytest.raises(SettingsError, match=r"'-p number:=\[1, a\]'") as caught:
+        given("--ros-args", "-p", "number:=[1, a]")
+    assert "empty text" not in str(caught.value)
+
+
 def test_a_namespace_that_cannot_be_is_refused() -> None:
     with pytest.raises(SettingsError, match="'/9a' is no namespace: allowed are letters"):
         given("--ros-args", "-r", "__ns:=/9a")
@@ -137,3 +148,30 @@ def test_ros_words_without_their_flag_are_refused_with_where_they_go(capsys: pyt
     with pytest.raises(SystemExit, match="2"):
         given("-p", "word:=two")
     assert "[--ros-args -p NAME:=VALUE --params-file FILE ...]" in capsys.readouterr().err
+
+
+def test_what_all_nodes_have_may_be_given_to_all() -> None:
+    assert parameters_from(["program", "--ros-args", "-p", "word:=two"], {"left": LeftSettings, "more": LeftSettings})
+
+
+def test_nodes_are_made_in_their_order_each_with_its_own_parameters(monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[Any] = []
+
+    def run(factories: list[Any], *arguments: Any) -> int:
+        ran[:] = [[factory() for factory in factories], *arguments]
+        return 7
+
+    def make(name: str) -> Any:
+        def made(parameter_overrides: list[Parameter]) -> Any:
+            return name, {one.name: one.value for one in parameter_overrides}
+
+        return made
+
+    monkeypatch.setattr(composition, "run", run)
+    signals: Any = object()
+    words = ["program", "--set", "right.count=2", "--set", "left.word=two", "--ros-args", "-r", "__ns:=/x"]
+    nodes = {name: make(name) for name in ("right", "left")}
+    for given_words in (words, None):
+        monkeypatch.setattr(sys, "argv", ["other"] if given_words else words)
+        assert run_nodes(nodes, NODES, signals, given_words) == 7
+        assert ran == [[("right", {"count": 2}), ("left", {"word": "two"})], words, signals]

@@ -116,6 +116,33 @@ def test_of_a_file_for_several_the_section_of_another_is_not_said(tmp_path: Path
     assert misnamed_sections("/skin_1/example", ["x", "--ros-args", *params_file(tmp_path, text)]) == []
 
 
+@pytest.mark.parametrize(
+    "nodes", [["ball_state", "ball_control", "ball_trajectory"], ["hand_control", "ball_control"], ["driver", "drives"]]
+)
+def test_of_a_file_for_nodes_whose_names_are_only_alike_no_section_is_said(tmp_path: Path, nodes: list[str]) -> None:
+    text = "".join(f"/**/{node}: {{ros__parameters: {{rate_hz: 1.0}}}}\n" for node in nodes)
+    file = params_file(tmp_path, text)
+    for node in nodes:
+        assert misnamed_sections(f"/plate/{node}", ["x", "--ros-args", *file]) == []
+
+
+@pytest.mark.parametrize("section", ["/example", "example", "/**", "/**/example", "/*"])
+def test_of_a_node_without_a_namespace_its_own_sections_are_not_said(tmp_path: Path, section: str) -> None:
+    file = params_file(tmp_path, f"'{section}': {{ros__parameters: {{rate_hz: 1.0}}}}\n")
+    assert misnamed_sections("/example", ["x", "--ros-args", *file]) == []
+
+
+def test_a_section_for_another_depth_or_a_longer_name_gives_a_node_nothing_of_its_own(tmp_path: Path) -> None:
+    def shared(node: str, section: str) -> list[str]:
+        text = f"/**: {{ros__parameters: {{a: 1}}}}\n'{section}': {{ros__parameters: {{a: 1}}}}\n"
+        return list(shared_keys(node, ["x", "--ros-args", *params_file(tmp_path, text)]))
+
+    for node, section in (("/plate/driver_2", "/plate/driver"), ("/a/b/driver", "/*/driver"), ("/driver", "/*/driver")):
+        assert shared(node, section) == ["a"]
+    for node, section in (("/a/driver", "/*/driver"), ("/driver", "/**/driver"), ("/a/b/driver", "/**/driver")):
+        assert shared(node, section) == []
+
+
 def test_a_key_on_the_command_line_is_refused_even_if_a_file_has_it(context: Context, tmp_path: Path) -> None:
     file = params_file(tmp_path, "/**: {ros__parameters: {rats_hz: 10.0}}")
     for words in (["-p", "rats_hz:=1.0"], ["--param", "example:rats_hz:=1.0"]):
@@ -145,6 +172,17 @@ def test_what_cannot_be_read_shares_nothing(tmp_path: Path) -> None:
     file = params_file(tmp_path, "/**: {ros__parameters: {a: 1}}")
     assert shared_keys("/a", ["x", *file, "--ros-args", "-r", "b:=c", "--", *file]) == {}
     assert list(shared_keys("/a", ["x", "--ros-args", *file])) == ["a"]
+
+
+def test_a_file_may_have_letters_beyond_ascii_but_none_that_are_no_utf_8(tmp_path: Path) -> None:
+    path = tmp_path / "params.yaml"
+    words = ["x", "--ros-args", "--params-file", str(path)]
+    text = "# Größe\n/**: {ros__parameters: {a: 1}}\n"
+    path.write_text(text, encoding="utf-8")
+    assert list(shared_keys("/a", words)) == ["a"]
+    # As ROS does, which refuses it.
+    path.write_text(text, encoding="latin-1")
+    assert shared_keys("/a", words) == {}
 
 
 def test_a_tag_of_pythons_is_not_carried_out(tmp_path: Path) -> None:
