@@ -165,7 +165,7 @@ def _keys_of_file(path: Path) -> Iterator[tuple[str, str]]:
     """
     try:
         root = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError):
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError):
         return
     for names, value in _entries(root, ()):
         if _PARAMETERS in names and not isinstance(value, yaml.MappingNode):

@@ -107,6 +107,13 @@ def test_what_is_wrong_with_a_params_file_is_told(tmp_path: Path, content: bytes
     assert "\n" not in str(caught.value)
 
 
+def test_a_params_file_that_is_nested_too_deeply_to_say_more_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "params.yaml"
+    path.write_text(f"/**: {{ros__parameters: {{a: {'[' * 2000}\n")
+    with pytest.raises(SettingsError, match=rf"'--params-file {path}'.*; .*recursion"):
+        given("--ros-args", "--params-file", str(path))
+
+
 def test_a_folder_is_no_params_file(tmp_path: Path) -> None:
     with pytest.raises(SettingsError, match=f"; {tmp_path}: not a regular file$"):
         given("--ros-args", "--params-file", str(tmp_path))

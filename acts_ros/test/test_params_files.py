@@ -185,6 +185,12 @@ def test_a_file_may_have_letters_beyond_ascii_but_none_that_are_no_utf_8(tmp_pat
     assert shared_keys("/a", words) == {}
 
 
+def test_what_is_nested_too_deeply_shares_nothing(tmp_path: Path) -> None:
+    """ROS reads it; the node ended with a traceback."""
+    file = params_file(tmp_path, f"/**: {{ros__parameters: {{a: {'[' * 2000}{']' * 2000}}}}}\n")
+    assert shared_keys("/a", ["x", "--ros-args", *file]) == {}
+
+
 def test_a_tag_of_pythons_is_not_carried_out(tmp_path: Path) -> None:
     file = params_file(tmp_path, "/**: {ros__parameters: {a: !!python/object/apply:os.abort []}}")
     assert list(shared_keys("/a", ["x", "--ros-args", *file])) == ["a"]
