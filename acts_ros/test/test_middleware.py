@@ -12,12 +12,14 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from acts_core.errors import SettingsError
-from acts_ros.middleware import check_domain, choose_transports
+from acts_ros.middleware import check_domain, choose_transports, telling_wrong_arguments
 from acts_ros.processes import packages
 
 PROFILE, JAZZY_PROFILE = PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+FILES = ("DEFAULT_FASTDDS_PROFILES.xml", "DEFAULT_FASTRTPS_PROFILES.xml")
 FAST_DDS = "rmw_fastrtps_cpp"
 
 THREADS = """
@@ -59,7 +61,15 @@ def test_this_machine_only_takes_our_profile_and_nothing_beside_it(asked: dict[s
     assert "ROS_LOCALHOST_ONLY" not in variables
 
 
-@pytest.mark.parametrize("asked", [{}, {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, {"ROS_LOCALHOST_ONLY": "0"}])
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {},
+        {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"},
+        {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT"},
+        {"ROS_LOCALHOST_ONLY": "0"},
+    ],
+)
 def test_the_network_stays_open_where_that_is_asked_for(asked: dict[str, str], tmp_path: Path) -> None:
     variables = environment(**asked)
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
@@ -109,8 +119,9 @@ def test_a_profile_that_the_user_has_chosen_stays_on_an_open_network(name: str, 
     assert variables == {**asked, "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 
 
-def test_a_profile_in_the_folder_stays_on_an_open_network(tmp_path: Path) -> None:
-    (tmp_path / "DEFAULT_FASTDDS_PROFILES.xml").write_text("<dds/>")
+@pytest.mark.parametrize("name", FILES)
+def test_a_profile_in_the_folder_stays_on_an_open_network(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("<dds/>")
     variables = environment()
     assert choose_transports(variables, FAST_DDS, tmp_path) is None
     assert not set(PROFILES) & set(variables)
@@ -135,12 +146,13 @@ def test_what_the_user_has_set_stays_and_is_told(name: str, tmp_path: Path) -> N
     assert variables == asked
 
 
-def test_a_profile_in_the_folder_stays_and_is_told(tmp_path: Path) -> None:
-    (tmp_path / "DEFAULT_FASTDDS_PROFILES.xml").write_text("<dds/>")
+@pytest.mark.parametrize("name", FILES)
+def test_a_profile_in_the_folder_stays_and_is_told(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("<dds/>")
     variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
     told = choose_transports(variables, FAST_DDS, tmp_path)
     assert told is not None
-    assert "DEFAULT_FASTDDS_PROFILES.xml" in told
+    assert name in told
     assert not set(PROFILES) & set(variables)
 
 
@@ -151,6 +163,14 @@ def test_another_middleware_is_left_alone_and_told(tmp_path: Path) -> None:
     assert told is not None
     assert "rmw_cyclonedds_cpp" in told
     assert variables == asked
+    # Where nothing is asked of it, there is nothing to tell.
+    assert choose_transports(environment(), "rmw_cyclonedds_cpp", tmp_path) is None
+
+
+def test_every_flavour_of_fast_dds_takes_our_profile(tmp_path: Path) -> None:
+    variables = environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
+    assert choose_transports(variables, "rmw_fastrtps_dynamic_cpp", tmp_path) is None
+    assert variables[PROFILE] == profile("loopback")
 
 
 @pytest.mark.parametrize(("asked", "wanted"), [("LOCALHOST", "loopback"), ("SUBNET", "open")])
@@ -234,6 +254,48 @@ def test_a_folder_of_keys_that_is_not_given_is_told_with_what_to_do() -> None:
     told = refusal_with_keys("")
     assert told.startswith("acts_core.errors.SettingsError: ROS: failed to initialize rcl: ")
     assert "; set ROS_SECURITY_KEYSTORE, which ROS_SECURITY_STRATEGY=Enforce needs, or unset" in told
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Permissive"},
+        {"ROS_SECURITY_ENABLE": "false", "ROS_SECURITY_STRATEGY": "Enforce"},
+    ],
+)
+def test_another_refusal_of_ros_stays_as_it_is(variables: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ROS_SECURITY_KEYSTORE", raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    with pytest.raises(rclpy_implementation.RCLError, match=r"^failed to initialize rcl$"), telling_wrong_arguments([]):
+        raise rclpy_implementation.RCLError("failed to initialize rcl")
+
+
+def begin(**variables: str) -> str:
+    """What a process says that begins with ROS in this environment, and nothing else."""
+    result = subprocess.run(
+        [sys.executable, "-c", "from acts_ros import middleware; middleware.init()"],
+        env={**os.environ, "ROS_DOMAIN_ID": "201", **variables},
+        capture_output=True,
+        text=True,
+        timeout=60.0,
+        check=False,
+    )
+    return result.stderr.strip()
+
+
+def test_where_this_machine_alone_cannot_be_had_that_is_told() -> None:
+    told = begin(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_STATIC_PEERS="127.0.0.2")
+    assert told.endswith(
+        "[acts_ros]: ROS_AUTOMATIC_DISCOVERY_RANGE asks for this machine only, but ROS_STATIC_PEERS is there and is "
+        "left as it is: others may get in (docs/security.md)"
+    )
+    assert begin(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST") == ""
+
+
+def test_a_domain_that_there_cannot_be_is_refused_before_ros_begins() -> None:
+    told = begin(ROS_DOMAIN_ID="233").splitlines()[-1]
+    assert told.startswith("acts_core.errors.SettingsError: ROS_DOMAIN_ID=233: allowed is 0 to 232")
 
 
 def test_ros_starts_in_a_folder_that_was_removed(tmp_path: Path) -> None:
