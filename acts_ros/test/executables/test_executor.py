@@ -18,11 +18,14 @@ from acts_core.errors import REFUSED_EXIT_CODE
 pytestmark = pytest.mark.slow
 
 NODE = """
+import gc
+import os
 import sys
 import threading
 import weakref
 from acts_core import errors
-from acts_ros.executor import call_soon, call_when_done, run
+from acts_ros.executor import EventsExecutor, call_soon, call_when_done, run
+from acts_ros.middleware import announces_often
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -36,22 +39,32 @@ class Litter:
 class Example(Node):
     def __init__(self, name="example"):
         super().__init__(name)
-        if "slow" in sys.argv:
+        if "slow" in sys.argv and name == "example":
             Litter()
             print("starting", flush=True)
             while True:
                 self.create_timer(1.0, self.tick)
         if "fail" in sys.argv:
             raise getattr(errors, sys.argv[-1])("rate_hz = 0: allowed is 1 to 1000")
+        if "settled" in sys.argv:
+            print("garbage is collected while nodes are made:", gc.isenabled(), flush=True)
         self.create_timer(0.01, self.tick)
         self.ticks = 0
 
     def tick(self):
         self.ticks += 1
         if self.ticks == 3 and "unsent" in sys.argv:
-            raise rclpy_implementation.RCLError(f"failed to send {sys.argv[-1]}: cannot publish data, at x.cpp:68")
+            raise rclpy_implementation.RCLError(f"failed to {sys.argv[-1]}: cannot publish data, at x.cpp:68")
         if self.ticks == (9 if "unsent" in sys.argv else 3):
             print("ticking", flush=True)
+            if "settled" in sys.argv:
+                watched = "acts_dds_watch" in [thread.name for thread in threading.enumerate()]
+                print("garbage is collected:", gc.isenabled(), flush=True)
+                print("what is there stays:", gc.get_freeze_count() > 10_000, flush=True)
+                print("a thread waits for less than a frame:", sys.getswitchinterval() < 0.001, flush=True)
+                print("the middleware is watched:", watched == announces_often(os.environ), flush=True)
+                quickest = "SingleThreadedExecutor" if EventsExecutor is None else "EventsExecutor"
+                print("the quickest executor:", type(self.executor).__name__ == quickest, flush=True)
             if "soon" in sys.argv:
                 threading.Thread(target=call_soon, args=(self, self.tell)).start()
             if "done" in sys.argv:
@@ -70,8 +83,7 @@ class Example(Node):
             raise errors.RobotError("it has gone")
 
     def failed(self):
-        if "late" in sys.argv:
-            print("failed", flush=True)
+        print("failed", flush=True)
 
     def close(self):
         if "stubborn" in sys.argv:
@@ -82,14 +94,16 @@ class Example(Node):
             self.create_publisher(DiagnosticArray, "told", 10).publish(DiagnosticArray())
         print("closed", flush=True)
 
-class Breaking(Example):
+class Other(Example):
     def __init__(self):
-        super().__init__("breaking")
+        super().__init__("other")
 
+class Breaking(Other):
     def close(self):
         raise RuntimeError("cannot be closed")
 
-sys.exit(run([Example, Breaking] if "breaking" in sys.argv else [Example] * (2 if "two" in sys.argv else 1)))
+of = {"slow": [Other, Example], "breaking": [Example, Breaking], "two": [Example, Example]}
+sys.exit(run(next((nodes for word, nodes in of.items() if word in sys.argv), [Example])))
 """
 
 
@@ -122,9 +136,35 @@ def test_a_signal_ends_the_node_in_order(number: signal.Signals) -> None:
     assert process.returncode == 0
 
 
+def test_a_process_is_settled_before_it_works() -> None:
+    with started("settled") as process:
+        assert process.stdout is not None
+        told = [process.stdout.readline() for _ in range(8)]
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("closed\n", "")
+    assert told == [
+        "garbage is collected while nodes are made: False\n",
+        "begun\n",
+        "ticking\n",
+        "garbage is collected: True\n",
+        "what is there stays: True\n",
+        "a thread waits for less than a frame: True\n",
+        "the middleware is watched: True\n",
+        "the quickest executor: True\n",
+    ]
+
+
+def test_another_error_of_ros_ends_the_process() -> None:
+    with started("unsent", "go on") as process:
+        output, errors = process.communicate(timeout=60)
+    assert output == "begun\nfailed\nclosed\n"
+    assert errors.endswith("RCLError: failed to go on: cannot publish data, at x.cpp:68\n")
+    assert process.returncode == 1
+
+
 @pytest.mark.parametrize("what", ["response", "request"])
 def test_an_answer_or_a_question_that_cannot_be_sent_is_told_and_ends_nothing(what: str) -> None:
-    with started("unsent", what) as process:
+    with started("unsent", f"send {what}") as process:
         assert process.stdout is not None
         for words in ("begun", "ticking"):
             assert process.stdout.readline() == f"{words}\n"
@@ -160,7 +200,7 @@ def test_an_answer_is_handed_on_by_the_executors_thread() -> None:
 def test_an_error_of_what_the_executors_thread_was_to_call_ends_the_process_in_order(called: str, words: str) -> None:
     with started(called, "failing") as process:
         output, errors = process.communicate(timeout=60)
-    assert output == f"begun\nticking\n{words}on the executor's thread: True\nclosed\n"
+    assert output == f"begun\nticking\n{words}on the executor's thread: True\nfailed\nclosed\n"
     assert errors.endswith("error: it has gone\n")
     assert process.returncode == 1
 
@@ -184,7 +224,8 @@ def test_a_signal_while_a_node_is_made_is_an_orderly_end() -> None:
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=60)
     # What a start has left that was broken off is not searched for garbage: after a compiler that takes seconds.
-    assert (output, errors) == ("", "")
+    # The node that was made before is closed; nothing has failed.
+    assert (output, errors) == ("closed\n", "")
     assert process.returncode == 0
 
 
@@ -248,7 +289,7 @@ def test_a_parameter_of_ros_of_the_wrong_type_is_refused_in_one_line(value: str)
 def test_two_nodes_of_one_name_are_refused() -> None:
     with started("two") as process:
         output, errors = process.communicate(timeout=60)
-    assert output == "closed\nclosed\n"
+    assert output == "failed\nclosed\nfailed\nclosed\n"
     error = errors.splitlines()[-1]
     assert error.startswith("error: two nodes of this process are named /example: __node, ")
     assert process.returncode == REFUSED_EXIT_CODE
