@@ -6,6 +6,7 @@
 from array import array
 from collections.abc import Callable
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import Contacts, TactileSamples
 from acts_recon.contacts import MAX_BLOBS, BlobTracker, Contact
+from acts_recon.nodes import contacts_publisher
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.frame_publisher import RecoveredFrame
 from acts_recon.nodes.reconstruction_node import ReconstructionNode
@@ -179,3 +181,23 @@ def test_of_more_contacts_than_fit_as_many_as_fit_are_sent_and_that_is_said(
     assert message.dropped == 64 - MAX_BLOBS
     assert message.contacts[0].position_sigma.x == 0
     assert received["view/contacts"] == []
+
+
+def test_a_contact_that_slides_between_two_messages_for_viewers_keeps_its_number(
+    make_peers: Callable[..., Listener], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publishing = Publishing(make_peers)
+    # Nobody but viewers listens.
+    publishing._contacts._send = False
+    now_s = 100.0
+    monkeypatch.setattr(contacts_publisher, "time", SimpleNamespace(monotonic=lambda: now_s))
+    for sequence in range(81):
+        now_s += 0.001
+        # A taxel in 4 ms.
+        publishing.publish(sequence, bump(GEOMETRY, 16, 5 + 0.25 * sequence), VIEWED if sequence in (0, 80) else [])
+    received = publishing.peers.received
+    publishing.peers.until(lambda: received["view/contacts"] and received["view/contacts"][-1].sequence == 80)
+    (contact,) = received["view/contacts"][-1].contacts
+    assert contact.number == 1
+    assert contact.position.x == pytest.approx(float(GEOMETRY.x_m(25)), abs=GEOMETRY.pitch_m)
+    assert received["contacts"] == []

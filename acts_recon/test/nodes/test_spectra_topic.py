@@ -62,6 +62,26 @@ def test_the_node_tells_how_a_contact_vibrates_while_somebody_listens(make_bench
     assert np.argmax(first.amplitude) * first.step == pytest.approx(90, abs=2)
 
 
+def test_of_several_contacts_each_has_a_spectrum_with_its_number(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    places = ((6.0, 8.0), (24.0, 26.0))
+    pressed = np.maximum(*(bump(GEOMETRY, row, col) for row, col in places))
+    for sequence in range(1, 200):
+        bench.take(sequence, pressed)
+    assert spectra._work is not None
+    spectra._work.result(DEADLINE_S)
+    bench.take(200, pressed)
+    told = bench.received["spectra"]
+    bench.until(lambda: len(told) >= 2)
+    assert [(one.contact, one.contacts) for one in told[:2]] == [(0, 2), (1, 2)]
+    found = sorted((one.position.x, one.position.y) for one in told[:2])
+    for one, (row, col) in zip(found, places, strict=True):
+        assert one == pytest.approx((float(GEOMETRY.x_m(col)), float(GEOMETRY.y_m(row))), abs=1e-3)
+
+
 def test_the_spectrum_of_what_was_lifted_has_the_stamp_at_which_it_was(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
     spectra = publisher_of(bench.node, SpectraPublisher)

@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from sensor_msgs.msg import Image
 
 from acts_msgs.msg import ContactSeries
 from acts_recon.contacts import Contact as FoundContact
+from acts_recon.nodes import series_publisher
 from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_ros import qos
@@ -131,3 +133,46 @@ def test_more_missing_contacts_than_a_message_can_tell_do_not_end_the_node(make_
         series.publish("plate")
     missing = deserialize_message(told[0], ContactSeries).missing
     assert (missing[0], missing[1]) == (2**32 - 1, 999_999)
+
+
+def test_a_series_tells_delays_and_misses_nothing_of_the_time_in_which_nobody_listened(
+    make_bench: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(43)
+    series = SeriesPublisher(bench.node)
+    told: list[bytes] = []
+    now_ns, listeners = 0, 1
+    monkeypatch.setattr(series._publisher, "publish", told.append)
+    monkeypatch.setattr(series._publisher, "get_subscription_count", lambda: listeners)
+    monkeypatch.setattr(series_publisher, "time", SimpleNamespace(time_ns=lambda: now_ns))
+
+    def add(sequence: int, delay_ns: int) -> None:
+        nonlocal now_ns
+        now_ns = 1_000_000 * sequence + delay_ns
+        series.add(1_000_000 * sequence, sequence, FoundContact(force_n=float(sequence)))
+
+    series.look_for_subscribers()
+    # There may be nothing to tell yet.
+    series.publish("plate")
+    assert told == []
+    add(10, 500_000)
+    add(13, 250_000)
+    series.publish("plate")
+    add(14, 0)
+    listeners = 0
+    series.look_for_subscribers()
+    assert not series.is_wanted
+    listeners = 1
+    series.look_for_subscribers()
+    assert series.is_wanted
+    add(100, 0)
+    add(102, 0)
+    series.publish("plate")
+    first, second = (deserialize_message(data, ContactSeries) for data in told)
+    assert list(first.missing) == [0, 2]
+    assert list(first.delay) == pytest.approx([0.0005, 0.00025])
+    assert list(first.force) == [10.0, 13.0]
+    assert list(first.age) == pytest.approx([0.003, 0.0])
+    # Nor is what was kept then.
+    assert list(second.missing) == [0, 1]
+    assert list(second.force) == [100.0, 102.0]
