@@ -212,6 +212,21 @@ TREES = st.recursive(
     SCALARS | WIRES,
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(KEYS | st.text(max_size=4), inner, max_size=5),
 )
+BLOCKS = st.fixed_dictionaries({"down": WIRES, "across": WIRES})
+PATCHES = st.fixed_dictionaries(
+    {"wires": BLOCKS | st.lists(BLOCKS, max_size=2)},
+    optional={
+        "at": st.lists(st.integers(0, 9), min_size=2, max_size=2),
+        "radius_m": st.floats(),
+        "link": st.text(max_size=3),
+        "pose": st.dictionaries(KEYS, TREES, max_size=3),
+        "pitch_m": SCALARS,
+    },
+)
+FILES = st.fixed_dictionaries(
+    {"patches": st.dictionaries(st.sampled_from(["a", "b", "c", "2"]), PATCHES | TREES, max_size=3)},
+    optional={"picture": st.just([8, 8]) | TREES, "pitch_m": SCALARS},
+)
 BEND_M = st.floats(0.02, 1.0) | st.floats(-1.0, -0.02)
 
 
@@ -247,7 +262,7 @@ def near_layouts(draw: st.DrawFn) -> dict[str, Any]:
     return tree
 
 
-@given(st.dictionaries(KEYS, TREES, max_size=6) | near_layouts() | near_layouts())
+@given(st.dictionaries(KEYS, TREES, max_size=6) | FILES | near_layouts() | near_layouts())
 def test_any_yaml_is_a_layout_or_is_refused_in_words(tmp_path_factory: pytest.TempPathFactory, tree: Any) -> None:
     path = tmp_path_factory.getbasetemp() / "any.yaml"
     path.write_text(yaml.safe_dump(tree))

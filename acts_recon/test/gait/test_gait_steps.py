@@ -349,7 +349,10 @@ STEPS = st.builds(sampled_step, st.integers(3, 60), st.integers(3, 60), st.float
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.lists(STEPS | st.lists(ODD_SAMPLES, max_size=5), min_size=10, max_size=20).map(chain.from_iterable).map(list))
+@given(
+    st.lists(ODD_SAMPLES, min_size=50, max_size=150)
+    | st.lists(STEPS | st.lists(ODD_SAMPLES, max_size=5), min_size=10, max_size=20).map(chain.from_iterable).map(list)
+)
 def test_of_any_samples_steps_come_one_after_the_other(samples: list[tuple[float, float]]) -> None:
     tracker, at_s = FootTracker(), 0.0
     # It has walked before, and so its loads are known.

@@ -31,12 +31,18 @@ WISHES = st.fixed_dictionaries(
     {"id": st.integers(0, 9), "do": TEXT},
     optional={"skin": TEXT, "name": TEXT, "value": st.none() | NUMBERS | TEXT, "asked_s": NUMBERS},
 )
+ANY_OBJECT = st.dictionaries(st.text(), st.integers() | st.text())
 # In some of them one value is another, or a key that no request has.
 KEYS = st.sampled_from(["id", "do", "skin", "name", "value", "asked_s", "more"])
 CHANGES = st.dictionaries(KEYS, st.none() | st.booleans() | st.integers() | st.floats() | st.text(), max_size=1)
 
 
-@given(st.text() | st.binary() | st.builds(lambda wish, change: json.dumps({**wish, **change}), WISHES, CHANGES))
+@given(
+    st.text()
+    | st.binary()
+    | st.builds(json.dumps, ANY_OBJECT)
+    | st.builds(lambda wish, change: json.dumps({**wish, **change}), WISHES, CHANGES)
+)
 def test_anything_is_a_request_or_refused(data: str | bytes) -> None:
     try:
         request = read_request(data)
