@@ -169,10 +169,12 @@ def _call_safely(node: Node, callback: Callable[[], object]) -> None:
     """Call something in a task: one that raises crashes the events executor (rclpy 7.1 and 9.1), a timer does not."""
     try:
         callback()
-    except Exception as raised:  # noqa: BLE001 - raised again
-        error = raised
-    else:
-        return
+    except Exception as error:  # noqa: BLE001 - raised again
+        _raise_soon(node, error)
+
+
+def _raise_soon(node: Node, error: Exception) -> None:
+    """Raise on the executor's thread."""
 
     def fail() -> None:
         node.destroy_timer(timer)

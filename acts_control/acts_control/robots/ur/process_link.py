@@ -3,7 +3,7 @@
 
 """This side's end of `ur_process`: starts and ends it, hands it commands, takes in what it tells.
 
-Only ending it, and what says that it waits, waits, and that for a stated time.
+Nothing here waits but `carry_out`, `wait_until` and `close`, each for a stated time.
 """
 
 from __future__ import annotations
