@@ -22,6 +22,7 @@ from acts_driver.board.dialogue import NoAnswerError
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.usefixtures("patient")
 def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Host) -> None:
     session = host.start_session(layout="leap_right")
     hand = SkinMap.of(layout("leap_right"))
@@ -42,6 +43,7 @@ def test_the_session_keeps_the_layout_of_the_board(board: VirtualBoard, host: Ho
     ]
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_layout_that_is_no_longer_asked_for_gives_way_to_the_boards_own(host: Host) -> None:
     session = host.start_session(layout="leap_right")
     hand = SkinMap.of(layout("leap_right"))
@@ -58,6 +60,7 @@ def test_a_layout_that_is_no_longer_asked_for_gives_way_to_the_boards_own(host: 
     ]
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_board_is_told_of_dead_taxels_as_of_places_without_skin(host: Host) -> None:
     dead = taxels_named("row=3", *SIZE)
     session = host.start_session(dead_taxels="row=3")
@@ -73,6 +76,7 @@ def test_a_board_is_told_of_dead_taxels_as_of_places_without_skin(host: Host) ->
     ]
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_layout_whose_last_reply_was_lost_gives_way_as_well(host: Host, monkeypatch: pytest.MonkeyPatch) -> None:
     arrange = BoardLink.arrange
 
@@ -108,6 +112,7 @@ def test_a_layout_that_takes_long_to_read_is_told_to_the_board_then(
     wait_for(lambda: host.link.query().state.map_crc32 == hand.crc32, "the layout")
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
     board, log = SimpleBoard(), []
     session = BoardSession(
@@ -126,6 +131,7 @@ def test_a_board_that_knows_no_layouts_is_told_of_once() -> None:
     assert session.status.problem == ""
 
 
+@pytest.mark.usefixtures("patient")
 @pytest.mark.parametrize(
     ("parameters", "told"),
     [

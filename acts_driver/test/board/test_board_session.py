@@ -247,6 +247,7 @@ def test_a_size_unlike_the_parameters_is_named(host: Host) -> None:
 
 
 @pytest.mark.parametrize("wanted", [{"layout": "leap_right"}, {"dead_taxels": "row=20"}, {"m": 300}])
+@pytest.mark.usefixtures("patient")
 def test_of_a_board_of_another_size_the_size_is_told_not_what_does_not_fit_it(
     tmp_path: Path, wanted: dict[str, object]
 ) -> None:
