@@ -82,10 +82,11 @@ def run(arguments: argparse.Namespace) -> int:
         request.parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
         # All nodes have that service: what may be meant is another driver, not the service of another node.
         service = f"{node}/set_parameters_atomically"
-        result = _call(SetParametersAtomically, service, request, node_name=node).result
+        result = _call(SetParametersAtomically, service, request, node_name=node, is_repeatable=True).result
         succeeded, words = result.successful, result.reason or "set: " + ", ".join(arguments.values)
     else:
-        response = _call(Trigger, f"{node}/{_SERVICES[arguments.what]}", Trigger.Request())
+        name = f"{node}/{_SERVICES[arguments.what]}"
+        response = _call(Trigger, name, Trigger.Request(), is_repeatable=arguments.what == "query")
         succeeded, words = response.success, response.message
     # What a query gives is a report, of a board that is not well too.
     if not succeeded and arguments.what != "query":
@@ -101,7 +102,7 @@ def _change_state(node: str, transition: str) -> tuple[bool, str]:
     request = ChangeState.Request()
     request.transition.id = _TRANSITIONS[transition]
     is_done = _call(ChangeState, f"{node}/change_state", request).success
-    state = _call(GetState, f"{node}/get_state", GetState.Request()).current_state.label
+    state = _call(GetState, f"{node}/get_state", GetState.Request(), is_repeatable=True).current_state.label
     if is_done:
         return True, state
     allowed = _ALLOWED.get(state, ())
@@ -148,12 +149,13 @@ _ABSOLUTE = {"model": _absolute_model, "layout": _absolute_layout}
 """What a driver, which has another working directory, is told of parameters that name a file."""
 
 
-def _call(kind: Any, name: str, request: Any, node_name: str = "") -> Any:
+def _call(kind: Any, name: str, request: Any, node_name: str = "", is_repeatable: bool = False) -> Any:
     from rclpy.executors import SingleThreadedExecutor
 
     from acts_tools.running.calls import call
     from acts_tools.running.node import command_node
 
     with command_node("acts_driver_command", SingleThreadedExecutor) as (node, executor):
-        limits: dict[str, Any] = {"found_s": FOUND_S, "answer_s": ANSWER_S}
-        return call(node, executor, kind, name, request, who="driver", error=BoardError, node_name=node_name, **limits)
+        options: dict[str, Any] = {"found_s": FOUND_S, "answer_s": ANSWER_S, "node_name": node_name}
+        options["is_repeatable"] = is_repeatable
+        return call(node, executor, kind, name, request, who="driver", error=BoardError, **options)

@@ -71,7 +71,8 @@ def run(arguments: argparse.Namespace) -> int:
             name = f"{node_name}/{service}"
             request = kind.Request(**fields)
             options: dict[str, Any] = {"who": "node", "error": SettingsError, "found_s": FOUND_S}
-            return call(node, executor, kind, name, request, **options, node_name=node_name)
+            # To set is repeatable too: the same values again change nothing.
+            return call(node, executor, kind, name, request, **options, node_name=node_name, is_repeatable=True)
 
         names: list[str] = ask(ListParameters, "list_parameters").result.names
         wanted = [name for name, _, _ in pairs] or sorted(

@@ -24,6 +24,9 @@ ANSWER_S = 30.0
 
 _LOOK_S = 0.5
 
+_AGAIN_S = 3.0
+"""After how long a question is asked again whose answer may be lost [s]."""
+
 
 def call(
     node: Node,
@@ -37,8 +40,12 @@ def call(
     found_s: float = FOUND_S,
     answer_s: float = ANSWER_S,
     node_name: str = "",
+    is_repeatable: bool = False,
 ) -> Any:
     """What a service answers.
+
+    An answer can be lost: DDS finds a client and its service independently of each other, and Fast DDS drops what a
+    service answers to a client that it has not found 0.1 s later (https://github.com/ros2/rmw_fastrtps/issues/842).
 
     Parameters
     ----------
@@ -54,6 +61,8 @@ def call(
         Limits of time [s].
     node_name : str
         That with which `name` begins, where a user gives it and not the service.
+    is_repeatable : bool
+        Whether it does no harm to ask again, as for a parameter: then it is, while there is no answer.
 
     Raises
     ------
@@ -72,17 +81,23 @@ def call(
             f"no {who} offers {name}: is it launched (a first start takes up to a minute), in this namespace and with "
             f"this ROS_DOMAIN_ID{hint or '?'}"
         )
+    begin_s = time.monotonic()
     try:
-        future = ask(client, request)
+        futures = [ask(client, request)]
+        while True:
+            executor.spin_until_future_complete(futures[-1], timeout_sec=_LOOK_S)
+            for future in futures:
+                if future.done():
+                    return future.result()
+            if not client.service_is_ready():
+                raise error(f"{name} is gone and has not answered: the {who} has ended, see its output")
+            waited_s = time.monotonic() - begin_s
+            if waited_s > answer_s:
+                raise error(
+                    f"{name} has not answered within {answer_s:g} s: the {who} was killed or hangs, or its answer was "
+                    "lost, see its output"
+                )
+            if is_repeatable and waited_s > _AGAIN_S * len(futures):
+                futures.append(ask(client, request))
     except NotAskedError as refusal:
         raise error(str(refusal)) from refusal
-    deadline_s = time.monotonic() + answer_s
-    while not future.done():
-        executor.spin_until_future_complete(future, timeout_sec=_LOOK_S)
-        if future.done():
-            break
-        if not client.service_is_ready():
-            raise error(f"{name} is gone and has not answered: the {who} has ended, see its output")
-        if time.monotonic() > deadline_s:
-            raise error(f"{name} has not answered within {answer_s:g} s: the {who} was killed or hangs, see its output")
-    return future.result()
