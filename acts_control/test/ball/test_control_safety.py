@@ -39,6 +39,17 @@ def test_an_estimate_is_carried_on_with_the_tilts_the_plate_had() -> None:
     assert history.predict(Ball(0.3, 0.0, 0.1, 0.0), NOW_NS + 100 * MS) == pytest.approx((0.3, 0.0, 0.1, 0.0))
 
 
+def test_tilts_about_both_axes_move_the_ball_alike() -> None:
+    about_x, about_y = TiltHistory(0.14, 0.2), TiltHistory(0.14, 0.2)
+    for k, tilt in enumerate((0.0, 0.03, 0.05, 0.05)):
+        about_x.add(NOW_NS + k * 50 * MS, tilt, 0.0)
+        about_y.add(NOW_NS + k * 50 * MS, 0.0, tilt)
+    x, y, vx, vy = about_y.predict(Ball(0.01, 0.0, 0.1, 0.0), NOW_NS)
+    assert x > 0.01 + 0.1 * 0.15 - 0.1 * 0.05
+    # Turned by a right angle: what was along x is along -y.
+    assert about_x.predict(Ball(0.0, -0.01, 0.0, -0.1), NOW_NS) == pytest.approx((y, -x, vy, -vx))
+
+
 def test_what_the_plate_turned_meanwhile_moves_the_ball_against_it() -> None:
     history = TiltHistory(0.14, 1.0)
     assert history.predict(Ball(0.3, 0.0, 0.0, 0.0), NOW_NS) == Ball(0.3, 0.0, 0.0, 0.0)
@@ -53,6 +64,11 @@ def test_a_clock_that_is_set_back_does_no_harm() -> None:
     history.add(NOW_NS, 0.0, 0.0)
     history.add(NOW_NS - 10**9, 0.0, 0.1)
     assert history.predict(Ball(0.0, 0.0, 1.0, 0.0), NOW_NS - 10**9) == Ball(0.0, 0.0, 1.0, 0.0)
+    # The tilt from before the clock was set is forgotten, also for an estimate from before the first tilt after it.
+    history.add(NOW_NS, 0.0, 0.2)
+    history.add(NOW_NS - 5 * MS, 0.0, 0.0)
+    history.add(NOW_NS + 95 * MS, 0.0, 0.0)
+    assert history.predict(Ball(0.0, 0.0, 1.0, 0.0), NOW_NS - 55 * MS) == pytest.approx((0.15, 0.0, 1.0, 0.0))
 
 
 # --- the controller
@@ -223,6 +239,21 @@ def test_a_lost_ball_that_is_back_at_once_is_felt_for_as_long_as_a_new_one() -> 
         scene.step(seconds)
         phases.append(scene.phase)
     assert phases == [Phase.WAITING, Phase.BALANCING]
+
+
+def test_after_a_lost_ball_the_next_one_is_balanced_like_the_first() -> None:
+    scenes = balancing(), Scene()
+    scenes[0].ball = Ball(0.004, 0.003, 0.0, 0.0)
+    scenes[0].step(5.0)
+    scenes[0].valid = False
+    while scenes[0].phase is Phase.BALANCING:
+        scenes[0].step()
+    tilts = []
+    for scene in scenes:
+        scene.ball, scene.valid = Ball(-0.004, 0.003, 0.0, 0.0), True
+        tilts.append([scene.step() for _ in range(100)])
+        assert scene.phase is Phase.BALANCING
+    assert tilts[0] == tilts[1]
 
 
 @pytest.mark.parametrize(
