@@ -177,6 +177,7 @@ def test_a_bag_whose_recorder_was_killed_is_shown_and_said_to_be_one(tmp_path: P
     source.stop()
     assert diagnosis["level"] == 1
     assert "was never closed" in diagnosis["message"]
+    bag.close()
 
 
 def highest_at(source: RecordedSource, time_s: float) -> int:
