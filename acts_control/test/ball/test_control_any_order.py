@@ -29,9 +29,12 @@ class Controlled(RuleBasedStateMachine):
     """A controller and the gate behind it; rules change what they are given, `steps` lets time pass."""
 
     @initialize(
-        acceleration_rad_s2=st.floats(5.0, 40.0), touch_stop_after_s=st.floats(0.005, 0.5), settle_s=st.floats(0.0, 0.3)
+        acceleration_rad_s2=st.floats(5.0, 40.0),
+        touch_stop_after_s=st.floats(0.005, 0.5),
+        settle_s=st.floats(0.0, 0.3),
+        is_balancing=st.booleans(),
     )
-    def begin(self, acceleration_rad_s2: float, touch_stop_after_s: float, settle_s: float) -> None:
+    def begin(self, acceleration_rad_s2: float, touch_stop_after_s: float, settle_s: float, is_balancing: bool) -> None:
         self.config = ControllerConfig(
             max_tilt_acceleration_rad_s2=acceleration_rad_s2, touch_stop_after_s=touch_stop_after_s, settle_s=settle_s
         )
@@ -45,6 +48,9 @@ class Controlled(RuleBasedStateMachine):
         self.farthest_rad, self.fastest_rad_s = self.config.max_tilt_rad, self.config.max_tilt_rate_rad_s
         self.was_lowered = False
         self.ended = ""
+        # Rules hardly come in the order that it takes.
+        if is_balancing:
+            self.balance(0.02, -0.01)
 
     @rule(x=PLACES_M, y=PLACES_M, vx=SPEEDS_M_S, vy=SPEEDS_M_S, valid=st.booleans(), age_s=st.floats(-0.1, 0.4))
     def feel(self, x: float, y: float, vx: float, vy: float, valid: bool, age_s: float) -> None:
@@ -53,6 +59,18 @@ class Controlled(RuleBasedStateMachine):
     @rule(x=st.floats(-0.05, 0.05), y=st.floats(-0.05, 0.05))
     def feel_a_ball(self, x: float, y: float) -> None:
         self.ball = BallReport(self.now_ns, True, Ball(x, y, 0.0, 0.0))
+
+    @rule(x=st.floats(-0.05, 0.05), y=st.floats(-0.05, 0.05))
+    def balance(self, x: float, y: float) -> None:
+        """All that motion needs, for as long as it takes to begin."""
+        self.feel_a_ball(x, y)
+        self.refer_to_the_centre()
+        self.steps(60, 0.008, True, 0.0)
+
+    @rule(many=st.integers(1, 60))
+    def feel_no_ball(self, many: int) -> None:
+        self.ball = BallReport(self.now_ns, False, Ball(0.0, 0.0, 0.0, 0.0))
+        self.steps(many, 0.008, True, 0.0)
 
     @rule(x=PLACES_M, vx=SPEEDS_M_S, age_s=st.floats(-0.1, 0.4))
     def refer(self, x: float, vx: float, age_s: float) -> None:
@@ -134,4 +152,4 @@ class Controlled(RuleBasedStateMachine):
 
 
 TestControlled = Controlled.TestCase
-TestControlled.settings = settings(max_examples=40, stateful_step_count=20)
+TestControlled.settings = settings(max_examples=100, stateful_step_count=20)
