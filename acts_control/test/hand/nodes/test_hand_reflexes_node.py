@@ -92,7 +92,16 @@ def test_the_hand_grasps_avoids_and_opens_by_touch_and_ends_in_order(bus: Bus) -
         until(lambda: statuses[-1].steps > 0)
         # Touch has to be there before the hand may close.
         until(lambda: feel() and statuses[-1].touch_age < 1.0)
-        grasped = called("grasp")
+        answers: list[Trigger.Response] = []
+
+        def is_heard() -> bool:
+            """Whether it is not refused because a busy machine has just not run the hand's process for a while."""
+            feel()
+            answers.append(called("grasp"))
+            return "this program stood still" not in answers[-1].message
+
+        until(is_heard)
+        grasped = answers[-1]
         assert grasped.success
         # It has only begun.
         assert grasped.message == "the hand closes until it grips something"
