@@ -67,7 +67,10 @@ class SeriesPublisher:
     def takes(self, stamp_ns: int) -> bool:
         """Whether a contact of this time [ns] goes with what is kept; if not, `publish` that first."""
         stamps_ns = self._stamps_ns
-        return not stamps_ns or (stamps_ns[-1] <= stamp_ns and stamp_ns - stamps_ns[0] <= _LENGTH_MAX_NS)
+        if not stamps_ns or self._begins_anew:
+            # What was kept for others is forgotten with the next contact.
+            return True
+        return stamps_ns[-1] <= stamp_ns and stamp_ns - stamps_ns[0] <= _LENGTH_MAX_NS
 
     def add(self, stamp_ns: int, sequence: int, contact: Contact) -> None:
         """Keep a contact that has just been published; with one too many those before are dropped, and missing.

@@ -176,3 +176,28 @@ def test_a_series_tells_delays_and_misses_nothing_of_the_time_in_which_nobody_li
     # Nor is what was kept then.
     assert list(second.missing) == [0, 1]
     assert list(second.force) == [100.0, 102.0]
+
+
+def test_what_was_kept_for_a_viewer_that_left_is_not_told_to_the_next_one_a_minute_later(
+    make_bench: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(43, image_rate_hz=0.1)
+    images = publisher_of(bench.node, ImagesPublisher)
+    told: list[bytes] = []
+    listeners = 1
+    monkeypatch.setattr(images._series._publisher, "publish", told.append)
+    monkeypatch.setattr(images._series._publisher, "get_subscription_count", lambda: listeners)
+    bench.until(lambda: images._series.is_wanted)
+    for sequence in range(1, 20):
+        bench.take(sequence, np.zeros((32, 32)))
+    listeners = 0
+    bench.until(lambda: not images._series.is_wanted)
+    listeners = 1
+    bench.until(lambda: images._series.is_wanted)
+    told.clear()
+    an_hour_ns = 3600 * 10**9
+    bench.take(20, np.zeros((32, 32)), an_hour_ns)
+    # A clock that is set back has the new one published.
+    bench.take(21, np.zeros((32, 32)))
+    (series,) = (deserialize_message(data, ContactSeries) for data in told)
+    assert series.newest.sequence == 20
