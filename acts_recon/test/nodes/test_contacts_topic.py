@@ -4,9 +4,10 @@
 """Topics contacts, view/contacts and contacts_view over real DDS; ROS_DOMAIN_IDs 120 and 121."""
 
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from acts_core.array import ArrayGeometry
 from acts_msgs.msg import Contacts, TactileSamples
-from acts_recon.contacts import MAX_BLOBS, BlobTracker, Contact
+from acts_recon.contacts import MAX_BLOBS, BlobTracker, Contact, TrackedBlob
 from acts_recon.nodes import contacts_publisher
 from acts_recon.nodes.contacts_publisher import ContactsPublisher
 from acts_recon.nodes.frame_publisher import RecoveredFrame
@@ -201,3 +202,27 @@ def test_a_contact_that_slides_between_two_messages_for_viewers_keeps_its_number
     assert contact.number == 1
     assert contact.position.x == pytest.approx(float(GEOMETRY.x_m(25)), abs=GEOMETRY.pitch_m)
     assert received["contacts"] == []
+
+
+def test_for_viewers_alone_contacts_are_followed_at_most_250_times_a_second(
+    make_peers: Callable[..., Listener], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publishing = Publishing(make_peers)
+    step, steps = publishing._contacts._tracker.step, [0]
+
+    def counted(*arguments: Any) -> Sequence[TrackedBlob]:
+        steps[0] += 1
+        return step(*arguments)
+
+    monkeypatch.setattr(publishing._contacts._tracker, "step", counted)
+    now_s = 100.0
+    monkeypatch.setattr(contacts_publisher, "time", SimpleNamespace(monotonic=lambda: now_s))
+    taken = {}
+    for is_sent in (False, True):
+        publishing._contacts._send = is_sent
+        steps[0] = 0
+        for sequence in range(200):
+            now_s += 0.001
+            publishing.publish(sequence, bump(GEOMETRY, 16, 5), [])
+        taken[is_sent] = steps[0]
+    assert taken == {False: pytest.approx(50, abs=2), True: 200}

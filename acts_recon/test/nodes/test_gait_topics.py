@@ -10,12 +10,17 @@ from functools import partial
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.serialization import serialize_message
 from recon_bench import Listener
 
 from acts_core.errors import SettingsError
 from acts_msgs.msg import Contact, FootStep, Gait
 from acts_recon.nodes.gait_node import GaitNode, GaitSettings
 from acts_ros import qos
+from acts_ros.diagnostics import OK, WARN
 
 FIRST_NS = 1_700_000_000_000_000_000
 RATE_HZ = 50
@@ -74,6 +79,49 @@ def test_steps_and_gait_of_two_insoles(make_peers: Callable[..., Listener]) -> N
     # The second report is of a time without contacts.
     node._report()
     assert "no contacts on /left_sole/contact, /right_sole/contact" in node._report()[1]
+
+
+def test_the_report_tells_of_each_insole_that_there_is_what_came_of_it(
+    make_peers: Callable[..., Listener], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    peers = make_peers(22, "")
+    node = GaitNode(context=peers.context, parameter_overrides=[Parameter("left", value="")])
+    arrived: list[tuple[bytes, int]] = []
+    monkeypatch.setattr(node._contacts[FootStep.RIGHT], "take_all", lambda: arrived)
+    unreadable = contact_of(FootStep.RIGHT, 0)
+    unreadable.header.stamp.nanosec = 2_000_000_000
+    numbers = range(8 * RATE_HZ)
+    arrived += [(serialize_message(one), 0) for one in (unreadable, contact_of(FootStep.RIGHT, 0))]
+    node.update()
+    nothing_yet = {"refused": 1, "right.contacts": 1, "right.steps": 0, "right.load": "not learnt"}
+    assert node._report() == (OK, "0 steps", nothing_yet)
+    arrived[:] = [(serialize_message(contact_of(FootStep.RIGHT, number)), 0) for number in numbers[1:]]
+    node.update()
+    level, words, values = node._report()
+    assert (level, words) == (OK, f"{values['right.steps']} steps")
+    assert (values["refused"], values["right.contacts"]) == (1, len(numbers))
+    assert values["right.steps"] == node._steps[FootStep.RIGHT] > 5
+    assert values["right.load"] == pytest.approx(600.0, rel=0.05)
+    arrived.clear()
+    node.update()
+    assert node._report()[:2] == (WARN, "no contacts on /right_sole/contact")
+    node.destroy_node()
+
+
+def test_a_second_publisher_of_an_insole_is_told(make_peers: Callable[..., Listener]) -> None:
+    peers = make_peers(22, "")
+    peers.add(GaitNode(context=peers.context))
+    for name in ("one", "other"):
+        node = peers.add(Node(name, context=peers.context))
+        node.create_publisher(Contact, "/right_sole/contact", qos.STREAM)
+    told = peers.listen(DiagnosticArray, "/diagnostics", 10)
+    words = "/right_sole/contact has 2 publishers (/one, /other): end all but one"
+    peers.until(lambda: any(words in status.message for array in told for status in array.status))
+
+
+def test_shares_that_no_step_can_have_are_refused() -> None:
+    with pytest.raises(SettingsError, match=r"loaded_share = 0\.2: allowed is above lifted_share"):
+        GaitSettings(loaded_share=0.2, lifted_share=0.3)
 
 
 @pytest.mark.parametrize("feet", [("", ""), ("sole", "sole"), ("sole", "/sole"), ("/a/b", "a/b")])

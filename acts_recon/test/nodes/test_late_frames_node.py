@@ -130,6 +130,20 @@ def test_of_messages_that_have_waited_the_newest_is_published_whatever_their_sta
         bench.contact(sequence)
 
 
+def test_messages_that_wait_again_and_again_are_each_recovered_once(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(27)
+    cells = np.arange(10)
+    for newest in (4, 9, 14, 19):
+        # The node stands still meanwhile.
+        bench.executor.remove_node(bench.node)
+        for sequence in range(newest - 4, newest + 1):
+            bench.post(sequence, cells, cells)
+        bench.executor.add_node(bench.node)
+        bench.contact(newest)
+    bench.until(lambda: bench.node._frames + bench.node._unused == 20)
+    assert not bench.node._rejected.total()
+
+
 def test_a_node_that_is_too_slow_for_its_frames_still_reports(monkeypatch: pytest.MonkeyPatch) -> None:
     pause = threading.Event()
     with ExitStack() as ends:

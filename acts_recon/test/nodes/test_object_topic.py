@@ -129,6 +129,39 @@ def test_the_topic_keeps_its_rate(make_bench: Callable[..., Bench], library_path
     assert [(message.sequence, message.name) for message in bench.received["object"]] == [(0, "low")]
 
 
+def test_frames_that_are_not_classified_are_not_forgotten(
+    make_bench: Callable[..., Bench], library_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(127, object_library=library_path, object_rate_hz=0.1)
+    listen(bench)
+    objects = publisher_of(bench.node, ObjectPublisher)
+    ends_s: dict[str, list[float]] = {"update": [], "step": []}
+    resets = []
+
+    def noted(name: str) -> Callable[..., Any]:
+        method = getattr(objects._recogniser, name)
+
+        def call(*samples: Any) -> Any:
+            ends_s[name].append(samples[2])
+            return method(*samples)
+
+        return call
+
+    for name in ends_s:
+        monkeypatch.setattr(objects._recogniser, name, noted(name))
+    monkeypatch.setattr(objects._recogniser, "reset", lambda: resets.append(True))
+    everything, pressed = np.arange(1024), bump(GEOMETRY, *PLACES["low"]).ravel()
+    for k in range(5):
+        bench.send(k, everything, pressed, **timed(20 * k))
+        # Whether somebody still listens is looked at again and again.
+        bench.node._look_for_subscribers()
+    assert ends_s == {"step": [100.0], "update": pytest.approx([100.02, 100.04, 100.06, 100.08])}
+    assert not resets
+    objects.is_wanted = False
+    bench.node._look_for_subscribers()
+    assert resets == [True]
+
+
 def test_for_viewers_no_more_frames_are_classified_than_they_are_told_of(
     make_bench: Callable[..., Bench], library_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -62,6 +62,20 @@ def test_a_short_touch_beside_an_old_contact_is_told_at_any_rate(make_bench: Cal
     assert sum(one.number == 1 and 100 <= one.sequence < 200 for one in told) <= 1
 
 
+def test_an_old_contact_is_told_of_in_every_frame_where_that_is_the_rate(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(21, outlines_rate_hz=0.0)
+    outlines = publisher_of(bench.node, OutlinesPublisher)
+    bench.listen(Outline, "outlines", qos.STREAM)
+    bench.until(lambda: outlines.is_wanted)
+    told = bench.received["outlines"]
+    for sequence in range(400):
+        bench.take(sequence, bump(GEOMETRY, 8.0, 8.0))
+        # The queue is not as long as all of them.
+        if sequence % 50 == 49:
+            bench.until(lambda sequence=sequence: told and told[-1].sequence == sequence)  # type: ignore[misc]
+    assert [one.sequence for one in told[-300:]] == list(range(100, 400))
+
+
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:
     bench = make_bench(21, outlines=False)
     assert "/plate/outlines" not in dict(bench.node.get_topic_names_and_types())

@@ -3,7 +3,9 @@
 
 """Topic regions over real DDS; ROS_DOMAIN_IDs 212 and 213."""
 
+from collections import Counter
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,7 +14,11 @@ from recon_bench import Bench, publisher_of, timed
 
 from acts_core.skin import ForceResponse, layout
 from acts_msgs.msg import RegionContacts
+from acts_recon.nodes.frame_publisher import TopicPublisher
+from acts_recon.nodes.impacts_publisher import ImpactsPublisher
+from acts_recon.nodes.outlines_publisher import OutlinesPublisher
 from acts_recon.nodes.regions_publisher import RegionsPublisher
+from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_recon.regions import Regions
 from acts_ros import qos
 from acts_ros.messages import read_regions
@@ -68,6 +74,39 @@ def test_regions_are_those_of_the_image_while_somebody_listens(make_bench: Calla
         bench.send(k, everywhere, pressed(), **timed(3 * k))
         bench.contact(k)
     assert len(raw) <= 36
+
+
+def test_each_topic_forgets_the_frames_before_nobody_listened_and_before_the_board_began_anew(
+    make_bench: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(212, layout="leap_right", impacts=True, spectra=True, outlines=True)
+    node = bench.node
+    kept: dict[str, object] = {
+        "regions": publisher_of(node, RegionsPublisher)._regions,
+        "impacts": publisher_of(node, ImpactsPublisher)._detector,
+        "spectra": publisher_of(node, SpectraPublisher)._analyser,
+        "outlines": publisher_of(node, OutlinesPublisher)._tracer,
+    }
+    forgotten: Counter[str] = Counter()
+    for name, one in kept.items():
+        monkeypatch.setattr(one, "reset", partial(forgotten.update, [name]))
+    bench.take(10, np.zeros((32, 32)))
+    assert not forgotten
+    bench.take(5, np.zeros((32, 32)))
+    assert forgotten == dict.fromkeys(kept, 1)
+    parts = [part for part in node._parts if isinstance(part, TopicPublisher)]
+    listeners = 0
+    for part in parts:
+        monkeypatch.setattr(part._publisher, "get_subscription_count", lambda: listeners)
+    for again in (2, 3):
+        listeners = 1
+        bench.until(lambda: all(part.is_wanted for part in parts))
+        # While they go on listening nothing is.
+        node._look_for_subscribers()
+        assert forgotten == dict.fromkeys(kept, again)
+        listeners = 0
+        node._look_for_subscribers()
+        assert not any(part.is_wanted for part in parts)
 
 
 def test_a_skin_of_one_patch_on_no_link_has_no_regions(make_bench: Callable[..., Bench]) -> None:

@@ -6,6 +6,8 @@
 from collections.abc import Callable
 from concurrent.futures import Future
 from itertools import count
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +16,11 @@ from recon_bench import DEADLINE_S, FIRST_NS, Bench, publisher_of
 from recon_samples import bump
 
 from acts_core.array import ArrayGeometry
+from acts_core.frames import SampleFrame, Scheme
 from acts_core.skin import ForceResponse
 from acts_msgs.msg import Spectrum
 from acts_recon import spectra as analysed
+from acts_recon.nodes import spectra_publisher
 from acts_recon.nodes.spectra_publisher import SpectraPublisher
 from acts_ros import qos
 from acts_ros.messages import ns_of
@@ -115,6 +119,67 @@ def test_a_spectrum_that_cannot_be_made_is_told_once_and_the_next_is_made(make_b
         bench.take(1, counts_of(1))
     bench.take(2, counts_of(2))
     assert spectra._work is not failed
+
+
+def test_of_a_taxel_that_is_measured_many_times_in_a_frame_all_samples_are_taken(
+    make_bench: Callable[..., Bench],
+) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    taxels, pressed = np.full(10, 500, dtype=np.uint16), np.full(10, 400, dtype=np.uint16)
+    for sequence in range(1, 200):
+        frame = SampleFrame(sequence, 1000 * sequence, 1000, Scheme.FIXED, 32, 32, 0, taxels, pressed)
+        bench.node.take([(frame, FIRST_NS + 1_000_000 * sequence)], "plate")
+        if spectra._work is not None:
+            spectra._work.result(DEADLINE_S)
+    told = bench.received["spectra"]
+    bench.until(lambda: bool(told))
+    assert told[0].sample_rate == pytest.approx(10_000, rel=1e-3)
+
+
+def test_spectra_keep_their_rate(make_bench: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=10.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    now_s, begun = 100.0, [0]
+    monkeypatch.setattr(spectra_publisher, "time", SimpleNamespace(monotonic=lambda: now_s))
+
+    def begin(*_: Any, **__: Any) -> Future[tuple[analysed.Spectrum, ...]]:
+        begun[0] += 1
+        done: Future[tuple[analysed.Spectrum, ...]] = Future()
+        done.set_result(())
+        return done
+
+    monkeypatch.setattr(spectra_publisher, "background", SimpleNamespace(begin=begin))
+    for sequence in range(1, 1201):
+        now_s += 0.001
+        bench.take(sequence, counts_of(sequence))
+    assert begun[0] == pytest.approx(11, abs=1)
+
+
+def test_a_spectrum_of_before_the_board_began_anew_is_not_told(
+    make_bench: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench = make_bench(20, spectra_window_s=0.2, spectra_rate_hz=0.0)
+    spectra = publisher_of(bench.node, SpectraPublisher)
+    bench.listen(Spectrum, "spectra", qos.STREAM)
+    bench.until(lambda: spectra.is_wanted)
+    told: list[Spectrum] = []
+    monkeypatch.setattr(spectra._publisher, "publish", told.append)
+    for sequence in range(1001, 1151):
+        bench.take(sequence, counts_of(sequence))
+    assert spectra._work is not None
+    spectra._work.result(DEADLINE_S)
+    told.clear()
+    # Its clock begins anew, the stamps go on.
+    bench.take(1, counts_of(1), 1_151_000_000)
+    assert not told
+    # Nor is one made of samples of before.
+    assert len(spectra._analyser._frames) == 1
+    assert spectra._work is None
 
 
 def test_without_the_parameter_there_is_no_topic(make_bench: Callable[..., Bench]) -> None:

@@ -9,16 +9,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from geometry_msgs.msg import PointStamped
+from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from recon_bench import Bench, publisher_of
 from sensor_msgs.msg import Image
+from visualization_msgs.msg import MarkerArray
 
-from acts_msgs.msg import ContactSeries
+from acts_msgs.msg import Contacts, ContactSeries
 from acts_recon.contacts import Contact as FoundContact
 from acts_recon.nodes import series_publisher
 from acts_recon.nodes.images_publisher import ImagesPublisher
 from acts_recon.nodes.series_publisher import SeriesPublisher
 from acts_ros import qos
+from acts_ros.executor import destroy_subscription
 
 pytestmark = pytest.mark.slow
 
@@ -43,6 +47,35 @@ def test_the_viewer_image_keeps_its_rate_and_costs_nothing_unheard(make_bench: C
     age_s = np.frombuffer(bench.received["view/age"][0].data, np.float32)
     assert not age_s[indices].any()
     assert np.isinf(np.delete(age_s, indices)).all()
+
+
+def test_each_topic_is_published_to_somebody_who_listens_to_no_other(make_bench: Callable[..., Bench]) -> None:
+    bench = make_bench(43, image_rate_hz=1000.0)
+    everything, pressed = np.arange(1024), np.full(1024, 500)
+    numbers = count(1)
+    topics: list[tuple[type, str, QoSProfile]] = [
+        (PointStamped, "cop", qos.STREAM),
+        (Image, "image_raw", qos.STREAM),
+        (Image, "confidence", qos.STREAM),
+        (Contacts, "contacts", qos.STREAM),
+        (Contacts, "view/contacts", qos.VIEW),
+        (MarkerArray, "contacts_view", qos.VIEW),
+        (Image, "image", qos.VIEW),
+        (Image, "view/image_raw", qos.VIEW),
+        (Image, "view/confidence", qos.VIEW),
+        (Image, "view/age", qos.VIEW),
+        (ContactSeries, "view/contact_series", qos.VIEW),
+    ]
+    for kind, topic, profile in topics:
+        bench.until(lambda: not bench.node._is_more_wanted, what=f"the end of what was before {topic}")
+        messages: list[object] = []
+        subscription = bench.peer.create_subscription(kind, topic, messages.append, profile)
+        bench.until(
+            lambda messages=messages: messages,  # type: ignore[misc]
+            lambda: bench.send(next(numbers), everything, pressed),
+            topic,
+        )
+        destroy_subscription(bench.peer, subscription)
 
 
 def test_viewers_get_every_contact_in_a_few_messages(
