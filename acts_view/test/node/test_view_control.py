@@ -157,6 +157,8 @@ def test_what_is_asked_is_bounded_and_a_service_that_is_silent_holds_nothing_up(
         assert [one["id"] for one in order] == [51, 50]
         assert [one["done"] for one in order] == [True, False]
         assert "did not answer" in order[1]["text"]
+        assert bench.view._control is not None
+        assert not bench.view._control._clients["/stuck/driver/tare"]._pending_requests
         for number in range(60, 66):
             client.send(json.dumps({"id": number, "do": "tare", "skin": "/stuck"}))
         first = header_where(client, lambda header: header["type"] == "answer")
@@ -261,6 +263,31 @@ def test_a_page_is_told_that_a_service_was_not_asked_and_asks_again(
         bench.driver.set_parameters([Parameter("m", value=70)])
         header_where(client, lambda header: header.get("settings", {}).get("/plate", {}).get("m") == 70)
         assert set(refused) == {Trigger.Request, GetParameters.Request}
+
+
+def test_questions_that_nobody_answers_do_not_add_up(
+    begin: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of the settings of a driver, and of what a skin is like, the page's node asks every second."""
+    bench = begin(control=True)
+    asked: dict[str, list[Client]] = {"/stuck/driver/get_parameters": [], "/stuck/reconstruction/get_parameters": []}
+    call_async = Client.call_async
+
+    def noted(one: Client, question: object) -> Any:
+        future = call_async(one, question)
+        if one.srv_name in asked:
+            asked[one.srv_name].append(one)
+        return future
+
+    monkeypatch.setattr(Client, "call_async", noted)
+    # Nobody spins this one, either.
+    silent = Node("reconstruction", namespace="/stuck", context=bench.view.context)
+    silent.create_publisher(Contact, "contact", qos.STREAM)
+    with bench.connect():
+        for clients in asked.values():
+            wait_for(lambda clients=clients: len(clients) >= 3, "three questions", DEADLINE_S)  # type: ignore[misc]
+    assert [len(clients[-1]._pending_requests) for clients in asked.values()] == [1, 1]
+    silent.destroy_node()
 
 
 @needs_browser
