@@ -6,6 +6,9 @@
 import math
 import time
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from peers import Peers
@@ -72,6 +75,8 @@ def test_of_too_many_the_newest_are_kept(pair: Pair) -> None:
     taken = pair.take_until(99)
     assert taken[-8:] == list(range(92, 100))
     assert taken == sorted(taken)
+    # The length of one queue is that of no other.
+    assert STREAM.depth == 256
 
 
 def test_the_newest_message_tells_how_long_it_has_waited(pair: Pair) -> None:
@@ -90,6 +95,28 @@ def test_the_newest_message_tells_how_long_it_has_waited(pair: Pair) -> None:
     if not math.isnan(waited_s := taken[-1][1]):
         assert 0.0 < waited_s < time.time() - begun_s
     assert pair.polled.take_newest() is None
+
+
+def test_where_the_middleware_tells_no_time_of_reception_it_is_the_present_or_not_known() -> None:
+    arrived: list[tuple[Int32, dict[str, int]]] = []
+
+    class Handle(nullcontext[None]):
+        def take_message(self, *_: object) -> tuple[Int32, dict[str, int]] | None:
+            return arrived.pop(0) if arrived else None
+
+    made: Any = SimpleNamespace(handle=Handle(), qos_profile=STREAM, msg_type=Int32, raw=False)
+    polled: PolledSubscription[Int32] = PolledSubscription(made)
+    unknown = {"received_timestamp": 0, "source_timestamp": 0}
+    arrived += [(Int32(data=1), {**unknown, "received_timestamp": 5}), (Int32(data=2), unknown)]
+    before_ns = time.time_ns()
+    (_, known_ns), (_, present_ns) = polled.take_all()
+    assert known_ns == 5
+    assert before_ns <= present_ns <= time.time_ns()
+    arrived += [(Int32(data=3), {**unknown, "received_timestamp": 5}), (Int32(data=4), unknown)]
+    newest = polled.take_newest()
+    assert newest is not None
+    assert newest[0].data == 4
+    assert math.isnan(newest[1])
 
 
 def test_a_service_is_answered_when_the_answer_is_known(pair: Pair) -> None:
@@ -150,6 +177,17 @@ def test_an_answer_that_the_middleware_does_not_take_keeps_nobody_else_from_thei
     assert "[acts_ros]: later: failed to send response: cannot publish data\n" in capfd.readouterr().err
 
 
+def test_another_error_of_an_answer_is_raised(pair: Pair, monkeypatch: pytest.MonkeyPatch) -> None:
+    service = pair.node.create_polled_service(Trigger, "later")
+
+    def fail(*_: object) -> None:
+        raise rclpy_implementation.RCLError("service is invalid, at x.cpp:68")
+
+    monkeypatch.setattr(Service, "send_response", fail)
+    with pytest.raises(rclpy_implementation.RCLError, match="service is invalid"):
+        service.answer(Trigger.Response(success=True), None)
+
+
 def test_the_time_of_reception_is_told(pair: Pair) -> None:
     before_ns = time.time_ns()
     pair.send(7)
@@ -184,5 +222,6 @@ def test_a_subscription_may_be_destroyed_while_an_event_of_it_waits(pair: Pair) 
     pair.turn()
     pair.peer.create_publisher(Int32, "late", STREAM)
     pair.node.destroy_polled_subscription(strict)
+    assert strict._subscription not in pair.node._polled
     pair.send(1)
     pair.until(lambda: 1 in pair.called)

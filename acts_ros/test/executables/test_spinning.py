@@ -21,9 +21,13 @@ class MadeExecutor:
     def __init__(self, *, is_busy: bool) -> None:
         self._is_busy = is_busy
         self.timeout_s: float | None = None
+        self.ended_after_s: list[float] = []
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None) -> None:
         self.timeout_s = timeout_sec
+        self.ended_after_s = [
+            thread.interval for thread in threading.enumerate() if isinstance(thread, threading.Timer)
+        ]
         if self._is_busy:
             wait_for(future.done, "the end of what never pauses", 30.0)
 
@@ -42,6 +46,8 @@ def test_an_executor_that_pauses_ends_by_its_own_time_and_nothing_is_left_behind
     executor: Any = MadeExecutor(is_busy=False)
     spin_for(executor, 3600.0)
     assert executor.timeout_s == 3600.0
+    # What ends it otherwise does so later.
+    assert 3600.0 < max(executor.ended_after_s) < 3601.0
     wait_for(lambda: timers() <= before, "that the overtime is given up")
 
 
