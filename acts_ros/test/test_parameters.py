@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 import rclpy
@@ -21,7 +23,7 @@ from rclpy.parameter import Parameter
 
 from acts_core.errors import ActsError, ArrayError, SettingsError
 from acts_core.settings import Changeable, setting, validate
-from acts_ros.parameters import declare, node_options
+from acts_ros.parameters import declare, node_options, set_rate
 
 
 @dataclass(frozen=True)
@@ -145,6 +147,33 @@ def test_what_changes_is_checked_and_what_is_refused_changes_nothing(context: Co
     assert not node.set_parameters([Parameter("home_rad", value=[3.0, 4.0])])[0].successful
     assert node.get_parameter("rate_hz").value == 10.0
     assert changes == [10.0]
+
+
+def test_a_change_leaves_in_force_what_was_changed_before(context: Context) -> None:
+    @dataclass(frozen=True)
+    class Two:
+        rate_hz: float = setting(250.0, "how often", minimum=1.0, maximum=1000.0, changeable=Changeable.RUNNING)
+        taxels: int = setting(55, "how many", minimum=2, maximum=99, changeable=Changeable.RUNNING)
+
+    changes: list[tuple[float, int]] = []
+
+    def take(settings: Two) -> str:
+        changes.append((settings.rate_hz, settings.taxels))
+        return ""
+
+    node = make_node(context, [])
+    declare(node, Two, take)
+    for parameter in (Parameter("rate_hz", value=10.0), Parameter("taxels", value=60)):
+        assert node.set_parameters([parameter])[0].successful
+    assert changes == [(10.0, 55), (10.0, 60)]
+    (numbers,) = node.describe_parameter("taxels").integer_range
+    assert (numbers.from_value, numbers.to_value) == (2, 99)
+
+
+def test_a_timer_has_the_period_of_its_rate() -> None:
+    timer: Any = SimpleNamespace(timer_period_ns=0)
+    set_rate(timer, 250.0)
+    assert timer.timer_period_ns == 4_000_000
 
 
 def test_some_change_only_while_the_node_is_unconfigured(context: Context) -> None:

@@ -155,6 +155,7 @@ def test_contacts_of_a_machine_of_the_other_byte_order_are_read(contacts: Contac
 @given(series())
 def test_a_series_of_a_machine_of_the_other_byte_order_is_read(one: SeriesFields) -> None:
     read = read_series(BigEndian(series_message(one)).data)
+    assert write_series(read) == write_series(one)
     assert repr(read.newest) == repr(one.newest)
     for got, given_ in zip(read[1:], one[1:], strict=True):
         np.testing.assert_array_equal(got, given_)

@@ -73,6 +73,12 @@ def test_the_other_order_of_bytes_is_read() -> None:
     assert read_image(data) == ImageFields(10**9 + 2, "hi", 3, 4, "mono8", True, 4, b"\x07")
 
 
+def test_an_encoding_without_its_final_zero_is_refused() -> None:
+    head = bytes.fromhex("00000000 00000001 00000002 00000003 6869 00 00")
+    with pytest.raises(PacketError, match="its encoding has 0"):
+        read_image(head + struct.pack(">IIIBxxxIIB", 3, 4, 0, 1, 4, 1, 7))
+
+
 @pytest.mark.parametrize("change", [{"height": -1}, {"width": 2**32}, {"step": 2**32}])
 def test_numbers_beyond_their_field_are_refused(change: dict[str, int]) -> None:
     image = ImageFields(0, "", 1, 1, "mono8", False, 1, b"\x00")
