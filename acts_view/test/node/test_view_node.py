@@ -310,6 +310,8 @@ def test_of_long_diagnostics_only_what_can_be_shown_is_kept_and_that_not_for_eve
     finally:
         tracemalloc.stop()
     assert len(bench.view._heard) == 200
+    many = DiagnosticStatus(name="0/many", values=[KeyValue(key=f"{number}") for number in range(1000)])
+    assert [key for key, _ in view_node._shown(many)["values"]] == [f"{number}" for number in range(100)]
     # Forgotten though no page is open.
     monkeypatch.setattr(view_node, "_FORGET_NODE_S", 0.1)
     wait_for(lambda: not any(name[0].isdigit() for name in bench.view._heard), "that they are forgotten", DEADLINE_S)

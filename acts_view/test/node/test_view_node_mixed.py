@@ -1,7 +1,7 @@
 # Copyright 2026 ACTS contributors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Several nodes that publish the touch of one skin, as pages are told of them; ROS_DOMAIN_ID 204."""
+"""Several nodes that publish the touch of one skin, and too many skins, as pages are told; ROS_DOMAIN_ID 204."""
 
 from __future__ import annotations
 
@@ -36,3 +36,16 @@ def test_a_second_publisher_of_a_skin_is_named_until_it_is_gone(bench: Bench) ->
         player.destroy_publisher(contact)
         bench.until(lambda: not told(), client, lambda: bench.press(1.0))
     player.destroy_node()
+
+
+def test_of_skins_that_anybody_makes_up_no_more_are_shown_than_a_page_can_take(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = [(f"/made_{number}/contact", ["acts_msgs/msg/Contact"]) for number in range(100)]
+    others = [("/hand/contact", ["std_msgs/msg/String"]), ("/foot/contacts", ["acts_msgs/msg/Contact"])]
+    monkeypatch.setattr(bench.view, "get_topic_names_and_types", lambda: [*others, *made])
+    for _ in range(2):
+        names = bench.view._recorded()
+        assert len(set(names)) == len(names) == 32
+        assert all(name.startswith("/made_") for name in names)
+        assert list(names) == sorted(names)
