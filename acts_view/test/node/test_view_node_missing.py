@@ -112,3 +112,5 @@ def test_a_skin_that_is_launched_again_with_a_changed_layout_file_is_drawn_as_th
             with spinning_node("reconstruction", "/foot", DOMAIN_ID, furnish):
                 told = header_where(client, lambda one: one["type"] == "skin" and one["skin"] == "/foot")
                 assert [patch["name"] for patch in told["patches"]] == list(patches)
+                # The file is not read again with every answer.
+                wait_for(lambda: not is_unasked())
