@@ -60,6 +60,51 @@ def test_a_joint_beyond_its_limit_comes_back_no_faster_than_any_joint_may_move()
     assert 0.0 < max(steps_rad) <= config.max_speed_rad_s * 4.0 / config.rate_hz + 1e-9
 
 
+@pytest.mark.parametrize("lost", ["read", "command"])
+def test_single_answers_that_are_lost_now_and_then_do_not_add_up_to_silence(
+    lost: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bus, answers_to_lose = MadeBus(), [0]
+    answer = getattr(bus, lost)
+
+    def answer_or_not(*given: object) -> object:
+        if answers_to_lose[0]:
+            answers_to_lose[0] -= 1
+            raise HandError("no answer")
+        return answer(*given)
+
+    monkeypatch.setattr(bus, lost, answer_or_not)
+    config = HandLoopConfig(silence_s=0.05)
+    loop = HandLoop(LEAP_RIGHT, bus, config, lambda _level, _sentence: None)
+    loop.launch()
+    try:
+        wait_for(lambda: loop.status.phase is HandPhase.ENABLED, lambda: f"torque, {loop.status}", DEADLINE_S)
+        for count in (1, 2, 3):
+            answers_to_lose[0] = 1
+            wait_for(lambda: loop.status.unanswered == count, lambda: f"a lost answer, {loop.status}", DEADLINE_S)  # noqa: B023
+            later = loop.status.cycles + round(4.0 * config.silence_s * config.rate_hz)
+            wait_for(lambda: loop.status.cycles >= later, lambda: f"cycles, {loop.status}", DEADLINE_S)  # noqa: B023
+        assert bus.connects == 1
+    finally:
+        loop.close()
+
+
+def test_the_torque_goes_off_when_asked_also_while_motors_do_not_answer() -> None:
+    bus = MadeBus()
+    loop = HandLoop(LEAP_RIGHT, bus, HandLoopConfig(silence_s=10.0), lambda _level, _sentence: None)
+    loop.launch()
+    try:
+        wait_for(lambda: bus.has_torque, lambda: f"torque, {loop.status}", DEADLINE_S)
+        bus.answers_to_lose = 10**9
+        wait_for(lambda: loop.status.unanswered > 0, lambda: f"silence, {loop.status}", DEADLINE_S)
+        loop.release()
+        wait_for(lambda: not bus.has_torque, lambda: f"the torque to go off, {loop.status}", DEADLINE_S)
+        # They hear it before they are taken for lost.
+        assert bus.connects == 1
+    finally:
+        loop.close()
+
+
 def test_motors_of_which_one_was_silent_at_the_last_release_are_switched_off_by_connecting_once_more(
     made: Made, monkeypatch: pytest.MonkeyPatch
 ) -> None:
